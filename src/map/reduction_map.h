@@ -1,0 +1,45 @@
+// The reduction map: a few basis reflectances and, per texel of a pyramid, how much of each (paper, sections 3 to 4.6).
+// Pure data: it never calls a shader.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "map/footprint.h"
+#include "map/pyramid.h"
+
+namespace redmap {
+
+/// Most basis reflectances a map can have.
+inline constexpr int kMaxBasis = 16;
+
+/// A basis reflectance is a place on the surface and the shader run there (paper, section 4.3).
+struct BasisPlace {
+  Vec3 position, normal, tangent;
+  Vec2 uv;
+};
+
+/// What the bake found out about how well the map can stand in for the shader.
+enum class MapVerdict {
+  kReduces,       ///< the basis represents the shader within the tolerance
+  kOneMaterial,   ///< it does, and one averaged material would have been enough
+  kDoesNotReduce  ///< it does not: render by supersampling
+};
+
+struct ReductionMap {
+  std::string shader;
+  std::map<std::string, std::vector<float>> parameters;  ///< all of them, by name
+  std::uint64_t surface_fingerprint = 0;
+  int size = 0;             ///< asked for; the extent of level 0 is weights.extent(0)
+  float tolerance = 0;      ///< asked for: maximum residual, RMS over direction samples scaled by their own RMS
+  float residual = 0;       ///< reached: the largest residual over all sampled points
+  MapVerdict verdict = MapVerdict::kReduces;
+  std::string verdict_reason;
+  std::vector<BasisPlace> basis;
+  WeightPyramid weights;
+};
+
+}  // namespace redmap

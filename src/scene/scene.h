@@ -1,0 +1,60 @@
+// A scene: camera, lights, objects and how they move. Read from TOML by scene_file.h.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "shader/shader.h"
+#include "surface/surface.h"
+
+namespace redmap {
+
+/// Similarity transform object to world: rotate (Euler degrees about x, then y, then z), scale, translate.
+struct Transform {
+  Vec3 translate;
+  Vec3 rotate_degrees;
+  float scale = 1;
+};
+
+/// Perspective camera. World space, y up.
+struct Camera {
+  Vec3 position{0, 0, 5};
+  Vec3 look_at;
+  Vec3 up{0, 1, 0};
+  float vertical_fov_degrees = 40;
+  int width = 640, height = 480;
+};
+
+struct Light {
+  enum class Type { kPoint, kDirectional };
+  Type type = Type::kPoint;
+  std::string name;
+  Vec3 position;       ///< world; point lights
+  Vec3 to_light;       ///< world, unit; directional lights
+  Rgb intensity{1, 1, 1};  ///< point: irradiance at distance 1 (falls with its square); directional: irradiance
+  bool shadows = true;
+};
+
+struct Object {
+  std::string name;
+  std::shared_ptr<const Surface> surface;
+  std::shared_ptr<const Shader> shader;
+  std::filesystem::path map_path;  ///< where its reduction map is, or will be baked to
+  int map_size = 1024;
+  Transform transform;
+};
+
+/// Everything at one moment.
+struct Scene {
+  Camera camera;
+  std::vector<Light> lights;
+  std::vector<Object> objects;
+  Rgb background;
+  Rgb ambient;  ///< unused by shaders of the library; kept black
+  float time_seconds = 0;
+};
+
+}  // namespace redmap

@@ -1,0 +1,96 @@
+// A surface that can be textured: analytic sphere and cylinder, or a mesh with an atlas (paper, section 4.1).
+// It maps texels to points when a map is baked, and ray hits to points when it is rendered.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/surface_points.h"
+#include "base/vec.h"
+
+namespace redmap {
+
+struct TriangleMesh;
+
+/// Width and height of a grid of texels.
+struct Extent {
+  int width = 0, height = 0;
+  friend bool operator==(const Extent&, const Extent&) = default;
+};
+
+/// Texels [x, x + width) x [y, y + height). Row y = 0 holds the smallest v.
+struct TexelRegion {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Points found on the surface under some texels: point i lies under texel `texel[i]`, row-major within the region.
+/// Ordered by texel, then by sub-point.
+struct TexelPoints {
+  SurfacePoints points;
+  std::vector<std::uint32_t> texel;
+};
+
+/// What a ray hit, as the ray tracer knows it. Meshes: triangle index and barycentric weights of its vertices 1 and 2;
+/// analytic surfaces: the chart index and the uv that `intersect` returned.
+struct HitCoordinates {
+  std::uint32_t primitive = 0;
+  Vec2 coordinates;
+};
+
+/// The surface at a hit, object space. `dp_du`, `dp_dv`: change of position with the map's uv. `normal` is the
+/// interpolated unit normal, `geometric_normal` the face's, both outward. `chart` tells disconnected parts of the map apart.
+struct SurfaceHit {
+  Vec3 position, normal, geometric_normal, tangent, dp_du, dp_dv;
+  Vec2 uv;
+  std::uint32_t chart = 0;
+};
+
+class Surface {
+ public:
+  virtual ~Surface() = default;
+
+  /// Texels of the base level for maps of size `size`: size x size, and 2 size x size on the sphere.
+  virtual Extent map_extent(int size) const = 0;
+  /// Whether u = 0 and u = 1 are the same place.
+  virtual bool wraps_u() const = 0;
+  /// Area in object space, and the part of the unit uv square that is covered (0 to 1).
+  virtual double area() const = 0;
+  virtual double uv_area() const = 0;
+
+  /// Points under the texels of `region` of a map of `extent` texels. For every texel t with `wanted[t] != 0` (row-major
+  /// within the region; empty means all) and every offset (in texels from the texel's corner, [0, 1)), one point if
+  /// the surface is there, none otherwise. Where two triangles claim a place the one with the smaller index has it.
+  virtual void rasterize(Extent extent, TexelRegion region, std::span<const Vec2> offsets,
+                         std::span<const std::uint8_t> wanted, TexelPoints& out) const = 0;
+
+  /// Everything about the surface at ray hits. `out` has the size of `hits`.
+  virtual void complete(std::span<const HitCoordinates> hits, std::span<SurfaceHit> out) const = 0;
+
+  /// Analytic surfaces: first hit with t in (t_near, t_far) of a ray in object space (`direction` need not be unit).
+  /// Meshes answer nullopt always: their triangles are for the ray tracer.
+  struct AnalyticHit {
+    float t;
+    HitCoordinates where;
+    Vec3 geometric_normal;
+  };
+  virtual std::optional<AnalyticHit> intersect(Vec3 origin, Vec3 direction, float t_near, float t_far) const = 0;
+  virtual const TriangleMesh* mesh() const { return nullptr; }
+
+  /// Object-space bounds.
+  virtual Vec3 lower() const = 0;
+  virtual Vec3 upper() const = 0;
+
+  /// A hash of everything that decides where texels lie on the surface: maps remember it.
+  virtual std::uint64_t fingerprint() const = 0;
+};
+
+/// Unit sphere: u = azimuth / 2 pi about +y from +x towards +z, v = polar angle / pi from +y. Radius in object units.
+std::shared_ptr<const Surface> make_sphere(float radius);
+/// Open cylinder about the y axis, y in [-height/2, height/2]: u = azimuth / 2 pi, v from bottom to top.
+std::shared_ptr<const Surface> make_cylinder(float radius, float height);
+
+}  // namespace redmap
