@@ -53,7 +53,6 @@ struct Scene {
   std::vector<Light> lights;
   std::vector<Object> objects;
   Rgb background;
-  Rgb ambient;  ///< unused by shaders of the library; kept black
   float time_seconds = 0;
 };
 
