@@ -9,23 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "base/extent.h"
 #include "base/surface_points.h"
 #include "base/vec.h"
 
 namespace redmap {
 
 struct TriangleMesh;
-
-/// Width and height of a grid of texels.
-struct Extent {
-  int width = 0, height = 0;
-  friend bool operator==(const Extent&, const Extent&) = default;
-};
-
-/// Texels [x, x + width) x [y, y + height). Row y = 0 holds the smallest v.
-struct TexelRegion {
-  int x = 0, y = 0, width = 0, height = 0;
-};
 
 /// Points found on the surface under some texels: point i lies under texel `texel[i]`, row-major within the region.
 /// Ordered by texel, then by sub-point.
