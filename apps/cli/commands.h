@@ -1,0 +1,17 @@
+// The subcommands of `redmap`, one file each. Each function declares its flags and what runs when it was chosen; the
+// run throws redmap::Error, or returns only when all that was asked for is on disk.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace redmap::cli {
+
+void add_bake_command(CLI::App& app);
+void add_render_command(CLI::App& app);
+void add_compare_command(CLI::App& app);
+void add_inspect_command(CLI::App& app);
+void add_bench_command(CLI::App& app);
+void add_list_command(CLI::App& app);
+void add_mesh_command(CLI::App& app);
+
+}  // namespace redmap::cli

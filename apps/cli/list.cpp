@@ -1,0 +1,89 @@
+// `redmap list`: the library's shaders, and what can be set on each. All of it is read from the shaders' own texts.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "commands.h"
+#include "common.h"
+#include "shader/shader.h"
+
+namespace redmap::cli {
+
+namespace {
+
+struct Options {
+  std::string what = "shaders";  ///< "shaders", "parameters" or a shader's name
+  std::string shader;
+  CommonOptions common;
+};
+
+std::string numbers(const std::vector<float>& values) { return fmt::format("{}", fmt::join(values, " ")); }
+
+nlohmann::json to_json(const ParameterInfo& parameter) {
+  return {{"name", parameter.name},
+          {"type", parameter.type},
+          {"default", parameter.default_value},
+          {"range", {parameter.minimum, parameter.maximum}},
+          {"unit", parameter.unit},
+          {"meaning", parameter.meaning}};
+}
+
+nlohmann::json to_json(const ShaderInfo& shader) {
+  nlohmann::json parameters = nlohmann::json::array();
+  for (const ParameterInfo& parameter : shader.parameters) parameters.push_back(to_json(parameter));
+  return {{"name", shader.name},           {"summary", shader.summary}, {"black_box", shader.black_box},
+          {"transmits", shader.transmits}, {"emits", shader.emits},     {"varies_in_time", shader.varies_in_time},
+          {"parameters", parameters}};
+}
+
+void list_shaders(const CommonOptions& common) {
+  nlohmann::json shaders = nlohmann::json::array();
+  for (const std::string& name : library_shader_names()) {
+    const ShaderInfo& shader = library_shader_info(name);
+    fmt::print("{:18} {:2} parameters  {}\n", name, shader.parameters.size(), shader.summary);
+    shaders.push_back(to_json(shader));
+  }
+  write_json(common.json, {{"shaders", shaders}});
+}
+
+void list_parameters(const std::string& name, const CommonOptions& common) {
+  const ShaderInfo& shader = library_shader_info(name);
+  fmt::print("{}: {}\n", shader.name, shader.summary);
+  for (const ParameterInfo& parameter : shader.parameters)
+    fmt::print("  {:16} {:5} {:>14}  [{}, {}] {:10} {}\n", parameter.name, parameter.type,
+               numbers(parameter.default_value), parameter.minimum, parameter.maximum, parameter.unit,
+               parameter.meaning);
+  write_json(common.json, to_json(shader));
+}
+
+void list(const Options& options) {
+  const bool asks_for_shaders = options.what == "shaders", asks_for_parameters = options.what == "parameters";
+  if (asks_for_parameters && options.shader.empty())
+    throw Error("list parameters: expected the name of a shader, found nothing (see redmap list shaders)");
+  if (!asks_for_parameters && !options.shader.empty())
+    throw Error("list {}: expected nothing after it, found \"{}\"", options.what, options.shader);
+  if (asks_for_shaders) return list_shaders(options.common);
+  list_parameters(asks_for_parameters ? options.shader : options.what, options.common);
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app) {
+  CLI::App* sub = app.add_subcommand("list", "Show the library's shaders, or the parameters of one");
+  sub->footer(
+      "Examples:\n"
+      "  redmap list                   every shader, one line each\n"
+      "  redmap list noise             its parameters: type, default, range, unit, meaning\n"
+      "  redmap list parameters noise  the same");
+  auto options = std::make_shared<Options>();
+  sub->add_option("what", options->what, "shaders (the default), parameters, or the name of a shader");
+  sub->add_option("shader", options->shader, "after `parameters`: whose");
+  add_common_options(*sub, options->common);
+  sub->callback([options] { list(*options); });
+}
+
+}  // namespace redmap::cli
