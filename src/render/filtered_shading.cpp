@@ -1,0 +1,162 @@
+#include "render/filtered_shading.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace redmap {
+
+namespace {
+
+// Footprints, in texels along the major axis, over which the shader gives way to the map.
+constexpr float kBlendBegin = 0.5f, kBlendEnd = 1.0f;
+
+/// The hits of `batch` at `indices`.
+ShadingBatch select(const ShadingBatch& batch, std::span<const std::uint32_t> indices) {
+  const auto pick = [&](const auto& from, auto& to) {
+    to.reserve(indices.size());
+    for (std::uint32_t i : indices) to.push_back(from[i]);
+  };
+  ShadingBatch part;
+  part.time = batch.time;
+  pick(batch.hits, part.hits), pick(batch.turned, part.turned), pick(batch.frames, part.frames);
+  pick(batch.footprints, part.footprints), pick(batch.to_viewer, part.to_viewer);
+  part.lights.resize(batch.lights.size());
+  for (std::size_t light = 0; light < batch.lights.size(); ++light) {
+    pick(batch.lights[light].to_light, part.lights[light].to_light);
+    part.lights[light].irradiance.resize(indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      part.lights[light].irradiance.set(i, batch.lights[light].irradiance.get(indices[i]));
+  }
+  return part;
+}
+
+void blend_into(Planes<3>& out, std::size_t i, Vec3 value, float part) {
+  out.set(i, part >= 1 ? value : out.get(i) * (1 - part) + value * part);
+}
+
+}  // namespace
+
+float FilteredShading::filtered_part(const Footprint& footprint) const {
+  const float major = footprint_axes(footprint, base_extent_).major;
+  return std::clamp((major - kBlendBegin) / (kBlendEnd - kBlendBegin), 0.0f, 1.0f);
+}
+
+void FilteredShading::shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const {
+  std::vector<float> part(batch.size());
+  std::vector<std::uint32_t> near_hits, far_hits;
+  for (std::uint32_t i = 0; i < batch.size(); ++i) {
+    part[i] = filtered_part(batch.footprints[i]);
+    if (part[i] < 1) near_hits.push_back(i);
+    if (part[i] > 0) far_hits.push_back(i);
+  }
+  if (near_hits.empty()) return shade_filtered(batch, out, counts);
+  if (far_hits.empty()) return original_->shade(batch, out, counts);
+
+  out.radiance.resize(batch.size());
+  out.transmittance.resize(batch.size());
+  ShadedBatch shaded;
+  original_->shade(select(batch, near_hits), shaded, counts);
+  for (std::size_t i = 0; i < near_hits.size(); ++i) {
+    out.radiance.set(near_hits[i], shaded.radiance.get(i));
+    out.transmittance.set(near_hits[i], shaded.transmittance.get(i));
+  }
+  shade_filtered(select(batch, far_hits), shaded, counts);
+  for (std::size_t i = 0; i < far_hits.size(); ++i) {
+    blend_into(out.radiance, far_hits[i], shaded.radiance.get(i), part[far_hits[i]]);
+    blend_into(out.transmittance, far_hits[i], shaded.transmittance.get(i), part[far_hits[i]]);
+  }
+}
+
+void FilteredShading::transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints,
+                                    float time, Planes<3>& out) const {
+  original_->transmittance(hits, footprints, time, out);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const float part = filtered_part(footprints[i]);
+    if (part == 0) continue;
+    const Rgb t = filtered_transmittance(footprints[i]);
+    blend_into(out, i, {t.r, t.g, t.b}, part);
+  }
+}
+
+BasisShading::BasisShading(const Shader& shader, const ReductionMap& map)
+    : transmittance_(map.basis.size()), emission_(map.basis.size()) {
+  SurfacePoints places;
+  places.resize(map.basis.size());
+  for (std::size_t b = 0; b < map.basis.size(); ++b) {
+    places.position.set(b, map.basis[b].position);
+    places.normal.set(b, map.basis[b].normal);
+    places.tangent.set(b, map.basis[b].tangent);
+    places.uv.set(b, map.basis[b].uv);
+  }
+  patterns_ = shader.bind(places);
+  Planes<3> values;
+  const auto keep = [&](std::vector<Rgb>& kept) {
+    for (std::size_t b = 0; b < kept.size(); ++b) kept[b] = values.rgb(b);
+  };
+  if (shader.info().transmits) patterns_->transmittance(values), keep(transmittance_);
+  if (shader.info().emits) patterns_->emission(values), keep(emission_);
+}
+
+void BasisShading::shade(const ShadingBatch& batch, std::span<const Frame> frames,
+                         std::span<const LaneVector<float>> weights, ShadedBatch& out, RenderCounts& counts) const {
+  out.radiance = Planes<3>(batch.size());
+  out.transmittance = Planes<3>(batch.size());
+  std::vector<std::size_t> present;
+  for (std::size_t b = 0; b < weights.size(); ++b)
+    if (std::any_of(weights[b].begin(), weights[b].end(), [](float w) { return w > 0; })) present.push_back(b);
+
+  Planes<3> radiance;
+  for (std::size_t light = 0; light < batch.lights.size(); ++light) {
+    const DirectionPairs pairs = pairs_in_frames(batch, light, frames);
+    for (std::size_t b : present) {
+      patterns_->radiance_one(b, pairs, radiance);
+      add_lit(weights[b].data(), radiance, batch.lights[light].irradiance, out.radiance);
+    }
+  }
+  counts.shader_calls += present.size() * batch.size() * batch.lights.size();
+
+  const auto add_constant = [&](const Rgb& value, const LaneVector<float>& weight, Planes<3>& sum) {
+    const float channel[3] = {value.r, value.g, value.b};
+    for (int c = 0; c < 3; ++c)
+      if (channel[c] != 0)
+        for (std::size_t i = 0; i < sum.stride(); ++i) sum[c][i] += weight[i] * channel[c];
+  };
+  for (std::size_t b : present) {
+    add_constant(emission_[b], weights[b], out.radiance);
+    add_constant(transmittance_[b], weights[b], out.transmittance);
+  }
+}
+
+Rgb BasisShading::transmittance(const FilteredTexel& texel) const {
+  Rgb sum;
+  for (std::size_t b = 0; b < transmittance_.size(); ++b) sum += transmittance_[b] * texel.channel[b];
+  return sum;
+}
+
+std::vector<LaneVector<float>> lookup_weights(const ReductionMap& map, std::span<const Footprint> footprints,
+                                              LookupFilter filter, RenderCounts& counts) {
+  const std::size_t basis = map.basis.size();
+  std::vector<LaneVector<float>> weights(basis, LaneVector<float>(padded(footprints.size()), 0.0f));
+  for (std::size_t i = 0; i < footprints.size(); ++i) {
+    const FilteredTexel texel = map.weights.lookup(footprints[i], filter);
+    for (std::size_t b = 0; b < basis; ++b) weights[b][i] = texel.channel[b];
+  }
+  counts.lookups += footprints.size();
+  return weights;
+}
+
+void require_same_shader(const Shader& shader, const ReductionMap& map) {
+  if (map.shader != shader.info().name)
+    throw Error("the map was baked from shader '{}', the object has '{}': bake it again", map.shader,
+                shader.info().name);
+  for (std::size_t i = 0; i < shader.info().parameters.size(); ++i) {
+    const std::string& name = shader.info().parameters[i].name;
+    const auto found = map.parameters.find(name);
+    if (found == map.parameters.end() || found->second != shader.parameters()[i])
+      throw Error("the map of shader '{}' was baked with another value of parameter '{}': bake it again", map.shader,
+                  name);
+  }
+}
+
+}  // namespace redmap

@@ -1,0 +1,51 @@
+// Shading by something filtered far away and by the shader itself close up, with a blend between.
+#pragma once
+
+#include "render/shading.h"
+
+namespace redmap {
+
+class FilteredShading : public ObjectShading {
+ public:
+  FilteredShading(std::shared_ptr<const Shader> shader, Extent base_extent)
+      : base_extent_(base_extent), original_(make_shader_shading(std::move(shader))) {}
+
+  void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const final;
+  void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints, float time,
+                     Planes<3>& out) const final;
+
+ protected:
+  /// Part of the filtered value, 0 (the shader itself) to 1, by the sample's footprint.
+  virtual float filtered_part(const Footprint& footprint) const;
+  virtual void shade_filtered(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const = 0;
+  virtual Rgb filtered_transmittance(const Footprint& footprint) const = 0;
+  Extent base_extent_;
+
+ private:
+  std::unique_ptr<ObjectShading> original_;
+};
+
+/// Evaluates the basis reflectances of a map: each bound once, then asked under many directions.
+class BasisShading {
+ public:
+  BasisShading(const Shader& shader, const ReductionMap& map);
+
+  /// out.radiance and out.transmittance of a batch, given the weights of each hit: weights[b][i].
+  void shade(const ShadingBatch& batch, std::span<const Frame> frames, std::span<const LaneVector<float>> weights,
+             ShadedBatch& out, RenderCounts& counts) const;
+  Rgb transmittance(const FilteredTexel& texel) const;
+  std::size_t size() const { return transmittance_.size(); }
+
+ private:
+  std::unique_ptr<BoundPatterns> patterns_;
+  std::vector<Rgb> transmittance_, emission_;
+};
+
+/// Looks every footprint up: weights[basis][hit], padded with zeros.
+std::vector<LaneVector<float>> lookup_weights(const ReductionMap& map, std::span<const Footprint> footprints,
+                                              LookupFilter filter, RenderCounts& counts);
+
+/// Throws Error if `map` was not baked from this shader with these parameters.
+void require_same_shader(const Shader& shader, const ReductionMap& map);
+
+}  // namespace redmap

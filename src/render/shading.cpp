@@ -1,0 +1,92 @@
+#include "render/shading.h"
+
+namespace redmap {
+
+RenderCounts& RenderCounts::operator+=(const RenderCounts& other) {
+  camera_rays += other.camera_rays;
+  shadow_rays += other.shadow_rays;
+  shader_calls += other.shader_calls;
+  lookups += other.lookups;
+  supersampled_pixels += other.supersampled_pixels;
+  return *this;
+}
+
+DirectionPairs pairs_in_frames(const ShadingBatch& batch, std::size_t light, std::span<const Frame> frames) {
+  DirectionPairs pairs;
+  pairs.resize(batch.size());
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    pairs.to_light.set(i, frames[i].to_local(batch.lights[light].to_light[i]));
+    pairs.to_viewer.set(i, frames[i].to_local(batch.to_viewer[i]));
+  }
+  return pairs;
+}
+
+void add_lit(const float* weight, const Planes<3>& radiance, const Planes<3>& irradiance, Planes<3>& sum) {
+  const std::size_t count = sum.stride();
+  for (int c = 0; c < 3; ++c) {
+    float* out = sum[c];
+    const float *r = radiance[c], *e = irradiance[c];
+    if (weight)
+      for (std::size_t i = 0; i < count; ++i) out[i] += weight[i] * r[i] * e[i];
+    else
+      for (std::size_t i = 0; i < count; ++i) out[i] += r[i] * e[i];
+  }
+}
+
+namespace {
+
+SurfacePoints surface_points(std::span<const SurfaceHit> hits, float time) {
+  SurfacePoints points;
+  points.resize(hits.size());
+  points.time = time;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const Frame frame = make_frame(hits[i].normal, hits[i].tangent);
+    points.position.set(i, hits[i].position);
+    points.normal.set(i, frame.z);
+    points.tangent.set(i, frame.x);
+    points.uv.set(i, hits[i].uv);
+  }
+  return points;
+}
+
+class ShaderShading : public ObjectShading {
+ public:
+  explicit ShaderShading(std::shared_ptr<const Shader> shader) : shader_(std::move(shader)) {}
+
+  void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
+    const auto patterns = shader_->bind(surface_points(batch.hits, batch.time));
+    if (shader_->info().emits)
+      patterns->emission(out.radiance);
+    else
+      out.radiance = Planes<3>(batch.size());
+    Planes<3> radiance;
+    for (std::size_t light = 0; light < batch.lights.size(); ++light) {
+      patterns->radiance_each(pairs_in_frames(batch, light, batch.frames), radiance);
+      add_lit(nullptr, radiance, batch.lights[light].irradiance, out.radiance);
+    }
+    counts.shader_calls += batch.size() * batch.lights.size();
+    if (shader_->info().transmits)
+      patterns->transmittance(out.transmittance);
+    else
+      out.transmittance = Planes<3>(batch.size());
+  }
+
+  void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint>, float time,
+                     Planes<3>& out) const override {
+    if (shader_->info().transmits)
+      shader_->bind(surface_points(hits, time))->transmittance(out);
+    else
+      out = Planes<3>(hits.size());
+  }
+
+ private:
+  std::shared_ptr<const Shader> shader_;
+};
+
+}  // namespace
+
+std::unique_ptr<ObjectShading> make_shader_shading(std::shared_ptr<const Shader> shader) {
+  return std::make_unique<ShaderShading>(std::move(shader));
+}
+
+}  // namespace redmap

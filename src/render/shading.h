@@ -1,0 +1,82 @@
+// How the hits on one object become radiance: by its shader, by its reduction map, or by a baseline.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "map/footprint.h"
+#include "map/pyramid.h"
+#include "map/reduction_map.h"
+#include "shader/shader.h"
+#include "surface/surface.h"
+
+namespace redmap {
+
+/// What a frame cost.
+struct RenderCounts {
+  std::uint64_t camera_rays = 0, shadow_rays = 0;
+  std::uint64_t shader_calls = 0;  ///< radiance of a pattern or of a basis reflectance under one light
+  std::uint64_t lookups = 0;
+  std::uint64_t supersampled_pixels = 0;  ///< where a map does not reduce and the shader itself was sampled
+  RenderCounts& operator+=(const RenderCounts& other);
+};
+
+/// Hits on one object with all that shading needs, in object space. One entry a hit everywhere.
+struct ShadingBatch {
+  std::vector<SurfaceHit> hits;       ///< normals turned towards the viewer
+  std::vector<std::uint8_t> turned;   ///< whether they had to be
+  std::vector<Frame> frames;          ///< shading frames: z the hit's interpolated normal
+  std::vector<Footprint> footprints;  ///< of the sample that hit
+  std::vector<Vec3> to_viewer;
+  struct Light {
+    std::vector<Vec3> to_light;
+    Planes<3> irradiance;  ///< at normal incidence, shadows included
+  };
+  std::vector<Light> lights;
+  float time = 0;
+
+  std::size_t size() const { return hits.size(); }
+};
+
+struct ShadedBatch {
+  Planes<3> radiance;
+  Planes<3> transmittance;  ///< of light from straight behind
+};
+
+class ObjectShading {
+ public:
+  virtual ~ObjectShading() = default;
+  virtual void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const = 0;
+  /// Only the transmittance, for shadows: `footprints` of the shadow rays where they hit.
+  virtual void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints, float time,
+                             Planes<3>& out) const = 0;
+};
+
+/// The shader itself at every hit.
+std::unique_ptr<ObjectShading> make_shader_shading(std::shared_ptr<const Shader> shader);
+
+/// The object's reduction map, anisotropic and variance matched, blending into the shader itself over footprints whose
+/// major axis is .5 to 1 texel; under that it is the shader, bit for bit. Throws Error if the map is of another shader.
+std::unique_ptr<ObjectShading> make_map_shading(std::shared_ptr<const Shader> shader,
+                                                std::shared_ptr<const ReductionMap> map);
+
+/// What production does today: mip-mapped averaged material parameters (see bake/baselines.h), roughness widened by
+/// their variance and by the curvature in the footprint (Tokuyoshi and Kaplanyan 2019), the same filter and blend.
+std::unique_ptr<ObjectShading> make_parameters_shading(std::shared_ptr<const Shader> shader,
+                                                       std::shared_ptr<const Pyramid<float>> parameters);
+
+/// The paper's section 5 to the letter, bump maps aside: trilinear lookup in the enclosing square, stored mean normal,
+/// blend by footprint area over one to two texels.
+std::unique_ptr<ObjectShading> make_paper_shading(std::shared_ptr<const Shader> shader,
+                                                  std::shared_ptr<const ReductionMap> map,
+                                                  std::shared_ptr<const Pyramid<float>> normals);
+
+/// Directions of the hits `batch` towards light `light`, and to the viewer, in `frames`.
+DirectionPairs pairs_in_frames(const ShadingBatch& batch, std::size_t light, std::span<const Frame> frames);
+
+/// Adds, hit by hit, weight * radiance * irradiance (weight null: 1).
+void add_lit(const float* weight, const Planes<3>& radiance, const Planes<3>& irradiance, Planes<3>& sum);
+
+}  // namespace redmap
