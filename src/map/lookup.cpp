@@ -1,0 +1,186 @@
+// Filtering a footprint out of a pyramid: the plan (where the taps are) and the taps. The anisotropic plan matches the
+// variance of the footprint, docs/lookup.md; the isotropic one is section 5.3 of the paper.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "map/pyramid.h"
+
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
+namespace redmap {
+namespace {
+
+/// Footprints longer than this are widened instead: 16 is what texture hardware does, and beyond it errors no longer
+/// fall.
+constexpr float kMaxAnisotropy = 16;
+/// Distance of two taps in texels of their level, at most: with the tent and box of a tap, 1.5 leaves no ripple that
+/// shows.
+constexpr float kTapSpacing = 1.5f;
+/// A bilinear tap on box-filtered texels of width c has variance c^2 / 12 + c^2 / 6 = c^2 / 4; a box of width m has
+/// m^2 / 12. They match at c = m / sqrt 3.
+constexpr float kTexelPerMinor = 0.57735027f;
+
+/// floor(log2(x)) for finite x >= 1.
+int floor_log2(float x) { return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23) - 127; }
+
+bool is_finite(const Footprint& f) {
+  return std::isfinite(f.uv.x + f.uv.y + f.duv_dx.x + f.duv_dx.y + f.duv_dy.x + f.duv_dy.y);
+}
+
+LookupPlan plan_variance_matched(const Footprint& footprint, Extent extent, int levels) {
+  const FootprintAxes axes = footprint_axes(footprint, extent);
+  const float texel = std::max(1.0f, kTexelPerMinor * std::max(axes.minor, axes.major / kMaxAnisotropy));
+
+  // What the tap's own width leaves of the major axis is covered by n taps: variance h^2 (n^2 - 1) / 12 = rest^2 / 12.
+  const float rest = std::sqrt(std::max(0.0f, axes.major * axes.major - 3 * texel * texel));
+  LookupPlan plan;
+  plan.first_uv = footprint.uv;
+  if (rest > 0.5f * texel) {
+    plan.taps = std::max(2, static_cast<int>(std::ceil(rest / (kTapSpacing * texel) + 0.5f)));
+    const float n = static_cast<float>(plan.taps);
+    plan.step_uv = axes.major_direction_uv * (rest / (axes.major * std::sqrt(n * n - 1)));
+    plan.first_uv = footprint.uv - plan.step_uv * (0.5f * (n - 1));
+  }
+
+  // Between two levels the variances add up to that of the texel wanted: (1 - f) c0^2 + f (2 c0)^2 = c^2.
+  plan.level = std::min(floor_log2(texel), std::max(0, levels - 2));
+  const float ratio = std::ldexp(texel, -plan.level);
+  plan.coarse_part = levels > 1 ? std::clamp((ratio * ratio - 1) / 3, 0.0f, 1.0f) : 0.0f;
+  return plan;
+}
+
+LookupPlan plan_enclosing_square(const Footprint& f, Extent extent, int levels) {
+  const float across = (std::abs(f.duv_dx.x) + std::abs(f.duv_dy.x)) * static_cast<float>(extent.width);
+  const float down = (std::abs(f.duv_dx.y) + std::abs(f.duv_dy.y)) * static_cast<float>(extent.height);
+  const float level = std::clamp(std::log2(std::max({across, down, 1.0f})), 0.0f, static_cast<float>(levels - 1));
+  LookupPlan plan;
+  plan.first_uv = f.uv;
+  plan.level = std::min(static_cast<int>(level), std::max(0, levels - 2));
+  plan.coarse_part = level - static_cast<float>(plan.level);
+  return plan;
+}
+
+#ifdef __AVX2__
+
+/// Eight floats, one register.
+struct Lanes {
+  __m256 v = _mm256_setzero_ps();
+  static Lanes load(const float* p) { return {_mm256_loadu_ps(p)}; }
+  static Lanes load(const std::uint8_t* p) {
+    return {_mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p))))};
+  }
+  void add(float weight, Lanes x) { v = _mm256_fmadd_ps(_mm256_set1_ps(weight), x.v, v); }
+  void store_scaled(float s, const float* scales, float* out) const {
+    _mm256_store_ps(out, _mm256_mul_ps(_mm256_mul_ps(v, _mm256_load_ps(scales)), _mm256_set1_ps(s)));
+  }
+};
+
+#else
+
+/// Eight floats, for processors without AVX2.
+struct Lanes {
+  float v[kLanes] = {};
+  template <typename Component>
+  static Lanes load(const Component* p) {
+    Lanes lanes;
+    for (std::size_t i = 0; i < kLanes; ++i) lanes.v[i] = static_cast<float>(p[i]);
+    return lanes;
+  }
+  void add(float weight, Lanes x) {
+    for (std::size_t i = 0; i < kLanes; ++i) v[i] += weight * x.v[i];
+  }
+  void store_scaled(float s, const float* scales, float* out) const {
+    for (std::size_t i = 0; i < kLanes; ++i) out[i] = v[i] * scales[i] * s;
+  }
+};
+
+#endif
+
+}  // namespace
+
+FootprintAxes footprint_axes(const Footprint& footprint, Extent extent) {
+  const float width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
+  const Vec2 x{footprint.duv_dx.x * width, footprint.duv_dx.y * height};
+  const Vec2 y{footprint.duv_dy.x * width, footprint.duv_dy.y * height};
+
+  // Larger eigenvalue and its vector of J J^T; the smaller singular value from the determinant, which stays precise.
+  const float uu = x.x * x.x + y.x * y.x, uv = x.x * x.y + y.x * y.y, vv = x.y * x.y + y.y * y.y;
+  const float half_difference = 0.5f * (uu - vv);
+  const float root = std::sqrt(half_difference * half_difference + uv * uv);
+  const float major = std::sqrt(0.5f * (uu + vv) + root);
+  if (!(major > 0)) return {};
+  Vec2 direction = half_difference >= 0 ? Vec2{half_difference + root, uv} : Vec2{uv, root - half_difference};
+  const float norm = length(direction);
+  direction = norm > 0 ? direction * (major / norm) : Vec2{major, 0};
+  return {major, std::abs(cross(x, y)) / major, {direction.x / width, direction.y / height}};
+}
+
+LookupPlan plan_lookup(const Footprint& footprint, Extent extent, int levels, LookupFilter filter) {
+  if (!is_finite(footprint)) return {{0.5f, 0.5f}, {}, 1, std::max(0, levels - 2), levels > 1 ? 1.0f : 0.0f};
+  return filter == LookupFilter::kVarianceMatched ? plan_variance_matched(footprint, extent, levels)
+                                                  : plan_enclosing_square(footprint, extent, levels);
+}
+
+template <typename Component>
+struct Pyramid<Component>::Sum {
+  float coverage = 0;
+  Lanes chunk[2];
+};
+
+template <typename Component>
+template <int kChunks, bool kUseCoverage>
+inline void Pyramid<Component>::add_tap(int level, Vec2 uv, float part, Sum& sum) const {
+  const Level& l = levels_[level];
+  const float width = static_cast<float>(l.extent.width), height = static_cast<float>(l.extent.height);
+  float x = (wraps_u_ ? uv.x - std::floor(uv.x) : uv.x) * width - 0.5f;
+  x = wraps_u_ ? (x < 0 ? x + width : x) : std::clamp(x, 0.0f, width - 1);
+  const float y = std::clamp(uv.y * height - 0.5f, 0.0f, height - 1);
+  const int x0 = std::min(static_cast<int>(x), l.extent.width - 1), y0 = static_cast<int>(y);
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  const Component* upper = data_.data() + l.offset + y0 * l.row_stride + static_cast<std::size_t>(x0) * texel_stride_;
+  const Component* lower = y0 + 1 < l.extent.height ? upper + l.row_stride : upper;
+
+  const auto add = [&](const Component* texel, float weight) {
+    const float covered = kUseCoverage ? weight * static_cast<float>(texel[0]) : weight;
+    sum.coverage += covered;
+    for (int i = 0; i < kChunks; ++i) sum.chunk[i].add(covered, Lanes::load(texel + 1 + i * kLanes));
+  };
+  add(upper, part * (1 - fx) * (1 - fy));
+  add(upper + texel_stride_, part * fx * (1 - fy));
+  add(lower, part * (1 - fx) * fy);
+  add(lower + texel_stride_, part * fx * fy);
+}
+
+template <typename Component>
+template <int kChunks, bool kUseCoverage>
+FilteredTexel Pyramid<Component>::gather(const LookupPlan& plan) const {
+  Sum sum;
+  Vec2 uv = plan.first_uv;
+  for (int i = 0; i < plan.taps; ++i, uv = uv + plan.step_uv) {
+    if (plan.coarse_part < 1) add_tap<kChunks, kUseCoverage>(plan.level, uv, 1 - plan.coarse_part, sum);
+    if (plan.coarse_part > 0) add_tap<kChunks, kUseCoverage>(plan.level + 1, uv, plan.coarse_part, sum);
+  }
+  FilteredTexel result;
+  if (!(sum.coverage > 0)) return result;
+  if (kUseCoverage) result.coverage = std::min(1.0f, sum.coverage * kComponentStep / static_cast<float>(plan.taps));
+  for (int i = 0; i < kChunks; ++i)
+    sum.chunk[i].store_scaled(kComponentStep / sum.coverage, &scales_[i * kLanes], &result.channel[i * kLanes]);
+  return result;
+}
+
+template <typename Component>
+FilteredTexel Pyramid<Component>::lookup(const Footprint& footprint, LookupFilter filter) const {
+  const LookupPlan plan = plan_lookup(footprint, extent(0), levels(), filter);
+  const bool one_chunk = channels_ <= static_cast<int>(kLanes);
+  const FilteredTexel texel = one_chunk ? gather<1, true>(plan) : gather<2, true>(plan);
+  if (texel.coverage > 0) return texel;
+  return one_chunk ? gather<1, false>(plan) : gather<2, false>(plan);
+}
+
+template FilteredTexel Pyramid<std::uint8_t>::lookup(const Footprint&, LookupFilter) const;
+template FilteredTexel Pyramid<float>::lookup(const Footprint&, LookupFilter) const;
+
+}  // namespace redmap
