@@ -33,6 +33,11 @@ Image to_linear(const Stored* stored, int width, int height, int channels, float
   return image;
 }
 
+/// The big-endian number that starts at `bytes`.
+long long read_big_endian(const stbi_uc* bytes) {
+  return (static_cast<long long>(bytes[0]) << 24) | (bytes[1] << 16) | (bytes[2] << 8) | bytes[3];
+}
+
 }  // namespace
 
 Image read_png(const std::filesystem::path& path) {
@@ -44,6 +49,9 @@ Image read_png(const std::filesystem::path& path) {
   };
   constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
   if (!bytes.starts_with(kSignature)) throw Error("{}: expected a PNG picture, found something else", path.string());
+  // The header stands first: 8 bytes of signature, 8 of chunk, then width and height.
+  if (bytes.size() < 24) throw Error("{}: the file is truncated", path.string());
+  require_sane_size(path, read_big_endian(data + 16), read_big_endian(data + 20), 1);
   // stb counts bytes in int.
   if (bytes.size() > INT32_MAX) throw Error("{}: expected a PNG file under 2 GiB", path.string());
   const int size = static_cast<int>(bytes.size());
