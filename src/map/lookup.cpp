@@ -158,8 +158,8 @@ template <typename Component>
 template <int kChunks, bool kUseCoverage>
 FilteredTexel Pyramid<Component>::gather(const LookupPlan& plan) const {
   Sum sum;
-  Vec2 uv = plan.first_uv;
-  for (int i = 0; i < plan.taps; ++i, uv = uv + plan.step_uv) {
+  for (int i = 0; i < plan.taps; ++i) {
+    const Vec2 uv = plan.first_uv + plan.step_uv * static_cast<float>(i);
     if (plan.coarse_part < 1) add_tap<kChunks, kUseCoverage>(plan.level, uv, 1 - plan.coarse_part, sum);
     if (plan.coarse_part > 0) add_tap<kChunks, kUseCoverage>(plan.level + 1, uv, plan.coarse_part, sum);
   }
