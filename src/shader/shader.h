@@ -61,11 +61,11 @@ struct ShaderInfo {
   std::string name;
   std::string summary;  ///< the first comment line of the text
   std::vector<ParameterInfo> parameters;
-  bool black_box = false;      ///< radiance(Surface, ...) instead of the split form
-  bool transmits = false;      ///< declares transmittance()
-  bool emits = false;          ///< declares emission()
-  bool has_material = false;   ///< declares material(), for the `parameters` baseline
-  bool varies_in_time = false;   ///< its text reads Surface.time: no map can stand in for it
+  bool black_box = false;       ///< radiance(Surface, ...) instead of the split form
+  bool transmits = false;       ///< declares transmittance()
+  bool emits = false;           ///< declares emission()
+  bool has_material = false;    ///< declares material(), for the `parameters` baseline
+  bool varies_in_time = false;  ///< its text reads Surface.time: no map can stand in for it
 };
 
 class Shader {

@@ -1,0 +1,208 @@
+// Turns the types and functions of a shader text, read as C++ through glsl.h, into a Shader: patterns are stored as
+// blocks of eight lanes and evaluated a block at a time.
+//
+// Each text stands in its own namespace; its functions are found there through the types of their arguments.
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "base/lanes.h"
+#include "shader/shader.h"
+
+namespace redmap::library {
+
+/// Eight directions or colours.
+template <typename Vector>
+struct LanePlanes {
+  /// Components of lanes [i, i + kLanes).
+  static Vector load(const Planes<3>& planes, std::size_t i) {
+    return {lanes::load(planes[0] + i), lanes::load(planes[1] + i), lanes::load(planes[2] + i)};
+  }
+  static Vector broadcast(const Planes<3>& planes, std::size_t i) { return {planes[0][i], planes[1][i], planes[2][i]}; }
+  static void store(Planes<3>& planes, std::size_t i, Vector v) {
+    lanes::store(planes[0] + i, v.x), lanes::store(planes[1] + i, v.y), lanes::store(planes[2] + i, v.z);
+  }
+};
+
+/// A text in the split form: pattern() once a place, radiance(Pattern) in the shading frame.
+template <typename Surface, typename Vector, typename Parameters, typename Pattern>
+struct SplitForm {
+  using Bound = Pattern;
+  static Bound bind(const Surface& at, const Parameters& p) { return pattern(at, p); }
+  static Vector evaluate(const Bound& m, const Parameters&, Vector to_light, Vector to_viewer) {
+    return radiance(m, to_light, to_viewer);
+  }
+};
+
+/// A black box: what is bound is the place, and directions are rotated from its shading frame to object space.
+template <typename Surface, typename Vector, typename Parameters>
+struct BlackBoxForm {
+  using Bound = Surface;
+  static Bound bind(const Surface& at, const Parameters&) { return at; }
+  static Vector evaluate(const Bound& at, const Parameters& p, Vector to_light, Vector to_viewer) {
+    const Vector bitangent = cross(at.normal, at.tangent);
+    const auto to_object = [&](Vector v) { return at.tangent * v.x + bitangent * v.y + at.normal * v.z; };
+    return radiance(at, p, to_object(to_light), to_object(to_viewer));
+  }
+};
+
+/// All lanes of a block set to its lane `lane`. Every member of Block is a whole number of registers.
+template <typename Block>
+Block broadcast_lane(const Block& block, std::size_t lane) {
+  static_assert(std::is_trivially_copyable_v<Block> && sizeof(Block) % sizeof(lanes::UintRegister) == 0);
+  constexpr std::size_t kRegisters = sizeof(Block) / sizeof(lanes::UintRegister);
+  lanes::UintRegister registers[kRegisters];
+  std::memcpy(registers, &block, sizeof block);
+  for (lanes::UintRegister& r : registers) r = lanes::UintRegister{} + r[lane];
+  Block result;
+  std::memcpy(&result, registers, sizeof result);
+  return result;
+}
+
+/// The struct Parameters of a text with the same values in all lanes; its members stand in the order of `values`.
+template <typename Parameters>
+Parameters broadcast_parameters(const ShaderInfo& info, const ParameterValues& values) {
+  constexpr std::size_t kRegisters = sizeof(Parameters) / sizeof(lanes::FloatRegister);
+  lanes::FloatRegister registers[kRegisters] = {};
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (const float value : values[i]) {
+      assert(next < kRegisters);
+      const bool is_int = info.parameters[i].type == "int";
+      registers[next++] = is_int ? (lanes::FloatRegister)lanes::Int(static_cast<int>(value)).v : lanes::Float(value).v;
+    }
+  assert(next == kRegisters);
+  Parameters result;
+  std::memcpy(&result, registers, sizeof result);
+  return result;
+}
+
+/// The optional functions of a text; without them a shader is opaque and dark.
+template <typename Vector, typename Bound>
+Vector transmittance_or_zero(const Bound& m) {
+  if constexpr (requires { transmittance(m); })
+    return transmittance(m);
+  else
+    return Vector(lanes::Float(0.0f));
+}
+template <typename Vector, typename Bound>
+Vector emission_or_zero(const Bound& m) {
+  if constexpr (requires { emission(m); })
+    return emission(m);
+  else
+    return Vector(lanes::Float(0.0f));
+}
+template <typename Vector, typename Bound>
+bool store_materials(const LaneVector<Bound>& blocks, std::size_t size, Materials& out) {
+  if constexpr (requires { material(blocks[0]); }) {
+    out.resize(size);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto m = material(blocks[b]);
+      LanePlanes<Vector>::store(out.diffuse, b * kLanes, m.diffuse);
+      LanePlanes<Vector>::store(out.specular, b * kLanes, m.specular);
+      LanePlanes<Vector>::store(out.transmittance, b * kLanes, m.transmittance);
+      lanes::store(out.exponent[0] + b * kLanes, m.exponent);
+    }
+    return true;
+  } else {
+    return false;
+  }
+}
+
+template <typename Form, typename Vector, typename Parameters>
+class LibraryPatterns final : public BoundPatterns {
+ public:
+  using Bound = typename Form::Bound;
+  using Lanes = LanePlanes<Vector>;
+
+  LibraryPatterns(std::size_t size, const Parameters& parameters)
+      : size_(size), parameters_(parameters), blocks_(padded(size) / kLanes) {}
+  Bound& block(std::size_t i) { return blocks_[i]; }
+  std::size_t size() const override { return size_; }
+
+  void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
+    out.resize(size_);
+    for (std::size_t i = 0; i < size_; i += kLanes)
+      Lanes::store(out, i,
+                   evaluate(blocks_[i / kLanes], Lanes::load(pairs.to_light, i), Lanes::load(pairs.to_viewer, i)));
+  }
+
+  void radiance_one(std::size_t pattern, const DirectionPairs& pairs, Planes<3>& out) const override {
+    out.resize(pairs.size());
+    const Bound bound = broadcast_lane(blocks_[pattern / kLanes], pattern % kLanes);
+    for (std::size_t i = 0; i < pairs.size(); i += kLanes)
+      Lanes::store(out, i, evaluate(bound, Lanes::load(pairs.to_light, i), Lanes::load(pairs.to_viewer, i)));
+  }
+
+  void radiance_all(const DirectionPairs& pairs, LaneVector<float>& out) const override {
+    const std::size_t stride = padded(size_);
+    out.resize(pairs.size() * 3 * stride);
+    for (std::size_t i = 0; i < stride; i += kLanes)
+      for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+        const Vector value = evaluate(blocks_[i / kLanes], Lanes::broadcast(pairs.to_light, pair),
+                                      Lanes::broadcast(pairs.to_viewer, pair));
+        float* to = out.data() + pair * 3 * stride + i;
+        lanes::store(to, value.x), lanes::store(to + stride, value.y), lanes::store(to + 2 * stride, value.z);
+      }
+  }
+
+  void transmittance(Planes<3>& out) const override {
+    out.resize(size_);
+    for (std::size_t i = 0; i < size_; i += kLanes)
+      Lanes::store(out, i, transmittance_or_zero<Vector>(blocks_[i / kLanes]));
+  }
+
+  void emission(Planes<3>& out) const override {
+    out.resize(size_);
+    for (std::size_t i = 0; i < size_; i += kLanes) Lanes::store(out, i, emission_or_zero<Vector>(blocks_[i / kLanes]));
+  }
+
+  bool materials(Materials& out) const override { return store_materials<Vector>(blocks_, size_, out); }
+
+ private:
+  /// The one place where radiance is compiled, never inlined: otherwise each loop might contract multiplications and
+  /// additions in its own way, and the three would not agree bit for bit.
+  [[gnu::noipa]] Vector evaluate(const Bound& bound, const Vector& to_light, const Vector& to_viewer) const {
+    return Form::evaluate(bound, parameters_, to_light, to_viewer);
+  }
+
+  std::size_t size_;
+  Parameters parameters_;
+  LaneVector<Bound> blocks_;
+};
+
+template <typename Form, typename Surface, typename Vector, typename Parameters>
+class LibraryShader final : public Shader {
+ public:
+  LibraryShader(const ShaderInfo& info, ParameterValues values)
+      : info_(info), values_(std::move(values)), parameters_(broadcast_parameters<Parameters>(info_, values_)) {}
+  const ShaderInfo& info() const override { return info_; }
+  const ParameterValues& parameters() const override { return values_; }
+
+  std::unique_ptr<BoundPatterns> bind(const SurfacePoints& points) const override {
+    auto bound = std::make_unique<LibraryPatterns<Form, Vector, Parameters>>(points.size(), parameters_);
+    for (std::size_t i = 0; i < points.size(); i += kLanes) bound->block(i / kLanes) = bind_block(place(points, i));
+    return bound;
+  }
+
+ private:
+  static Surface place(const SurfacePoints& points, std::size_t i) {
+    using Lanes = LanePlanes<Vector>;
+    Surface at;
+    at.position = Lanes::load(points.position, i);
+    at.normal = Lanes::load(points.normal, i);
+    at.tangent = Lanes::load(points.tangent, i);
+    at.uv = {lanes::load(points.uv[0] + i), lanes::load(points.uv[1] + i)};
+    at.time = points.time;
+    return at;
+  }
+  [[gnu::noinline]] typename Form::Bound bind_block(const Surface& at) const { return Form::bind(at, parameters_); }
+
+  const ShaderInfo& info_;
+  ParameterValues values_;
+  Parameters parameters_;
+};
+
+}  // namespace redmap::library

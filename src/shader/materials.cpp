@@ -1,0 +1,31 @@
+// Phong parameters evaluated with the library shaders' own Phong reflectance.
+#include "shader/shader.h"
+
+// Last, since it gives GLSL's type names their meaning.
+#include "shader/glsl.h"
+
+namespace redmap {
+namespace {
+namespace text {
+using namespace redmap::glsl;
+#include "shader/library/include/phong.glsl"
+}  // namespace text
+
+glsl::Vec3 load(const Planes<3>& planes, std::size_t i) {
+  return {lanes::load(planes[0] + i), lanes::load(planes[1] + i), lanes::load(planes[2] + i)};
+}
+
+}  // namespace
+
+void material_radiance_each(const Materials& materials, const DirectionPairs& pairs, Planes<3>& out) {
+  const std::size_t size = materials.exponent.size();
+  out.resize(size);
+  for (std::size_t i = 0; i < size; i += kLanes) {
+    const glsl::Vec3 value =
+        text::phong_radiance(load(materials.diffuse, i), load(materials.specular, i),
+                             lanes::load(materials.exponent[0] + i), load(pairs.to_light, i), load(pairs.to_viewer, i));
+    lanes::store(out[0] + i, value.x), lanes::store(out[1] + i, value.y), lanes::store(out[2] + i, value.z);
+  }
+}
+
+}  // namespace redmap
