@@ -8,7 +8,6 @@
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -37,6 +36,11 @@ std::string error_of_reading(const std::filesystem::path& path) {
     return error.what();
   }
   return "no error";
+}
+
+testing::AssertionResult says(const std::string& message, const std::string& part) {
+  if (message.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "expected \"" << part << "\" in \"" << message << "\"";
 }
 
 TEST(Image, FloatExr_ComesBackBitForBit_WithAnyNumberOfChannels) {
@@ -72,7 +76,7 @@ TEST(Image, NamedChannels_ComeBackByName) {
   write_image(image, folder / "a.exr");
   const Image back = read_image(folder / "a.exr");
   // OpenEXR orders channels by name.
-  EXPECT_THAT(back.channel_names, testing::ElementsAre("interior", "weight.1"));
+  EXPECT_EQ(back.channel_names, (std::vector<std::string>{"interior", "weight.1"}));
   EXPECT_EQ(back.at(2, 1, 0), image.at(2, 1, 1));
   EXPECT_EQ(back.at(2, 1, 1), image.at(2, 1, 0));
 }
@@ -97,7 +101,7 @@ TEST(Image, PngOfValuesOutsideZeroToOne_IsClamped) {
   Image image(4, 1, 1);
   image.data = {-1, 2, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
   write_image(image, folder / "a.png");
-  EXPECT_THAT(read_image(folder / "a.png").data, testing::ElementsAre(0, 1, 0, 1));
+  EXPECT_EQ(read_image(folder / "a.png").data, (std::vector<float>{0, 1, 0, 1}));
 }
 
 TEST(Image, MiddleGrey_IsStoredInPngAsItsSrgbValue) {
@@ -150,7 +154,7 @@ TEST(Image, MultiPartExr_IsReadAsItsFirstPart) {
       output.writePixels(1);
     }
   }
-  EXPECT_THAT(read_image(folder / "a.exr").data, testing::ElementsAre(1, 5));
+  EXPECT_EQ(read_image(folder / "a.exr").data, (std::vector<float>{1, 5}));
 }
 
 TEST(Image, LuminanceChromaExr_IsRefusedByName) {
@@ -158,14 +162,14 @@ TEST(Image, LuminanceChromaExr_IsRefusedByName) {
   Image image(2, 2, 3);
   image.channel_names = {"Y", "RY", "BY"};
   write_image(image, folder / "a.exr");
-  EXPECT_THAT(error_of_reading(folder / "a.exr"), testing::HasSubstr("chroma"));
+  EXPECT_TRUE(says(error_of_reading(folder / "a.exr"), "chroma"));
 }
 
 TEST(Image, MissingFilesAndUnknownExtensions_SayWhichFile) {
   const TemporaryFolder folder;
-  EXPECT_THAT(error_of_reading(folder / "none.exr"), testing::HasSubstr("none.exr: no such picture"));
+  EXPECT_TRUE(says(error_of_reading(folder / "none.exr"), "none.exr: no such picture"));
   write_file(folder / "a.jpg", "x");
-  EXPECT_THAT(error_of_reading(folder / "a.jpg"), testing::HasSubstr("a.jpg: expected"));
+  EXPECT_TRUE(says(error_of_reading(folder / "a.jpg"), "a.jpg: expected"));
   EXPECT_THROW(write_image(Image(1, 1, 3), folder / "b.tga"), Error);
   EXPECT_THROW(write_image(Image(1, 1, 5), folder / "five.exr"), Error);
   EXPECT_THROW(write_image(Image(1, 1, 5), folder / "five.png"), Error);
@@ -184,7 +188,7 @@ TEST_P(HostileImage, EveryTruncation_IsAnErrorThatNamesTheFile) {
   // Cut anywhere up to the last 64 bytes: what is lost there in a PNG are check sums.
   for (std::size_t length = 0; length + 64 < whole.size(); length += 1 + length / 50) {
     write_file(path, whole.substr(0, length));
-    EXPECT_THAT(error_of_reading(path), testing::HasSubstr("cut")) << length << " of " << whole.size() << " bytes";
+    EXPECT_TRUE(says(error_of_reading(path), "cut")) << length << " of " << whole.size() << " bytes";
   }
 }
 
@@ -219,7 +223,7 @@ TEST(HostileImage, AbsurdSizes_AreRefusedBeforeAnyMemoryIsTaken) {
   // A PNG header of 2^24 - 1 pixels squared, which stb itself would accept to look at.
   std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\xff\xff\xff\0\xff\xff\xff\x08\x02\0\0\0\0\0\0\0", 33);
   write_file(folder / "a.png", png + std::string(100, '\0'));
-  EXPECT_THAT(error_of_reading(folder / "a.png"), testing::HasSubstr("16777215 x 16777215"));
+  EXPECT_TRUE(says(error_of_reading(folder / "a.png"), "16777215 x 16777215"));
 
   // The data window of an OpenEXR file of 8 x 8 pixels stretched to 2^30 columns and 2^30 rows.
   write_image(Image(8, 8, 1), folder / "a.exr");
@@ -227,7 +231,7 @@ TEST(HostileImage, AbsurdSizes_AreRefusedBeforeAnyMemoryIsTaken) {
   const std::size_t window = exr.find("box2i", exr.find("dataWindow")) + 10;
   exr.replace(window + 8, 8, std::string("\xff\xff\xff\x3f\xff\xff\xff\x3f", 8));
   write_file(folder / "a.exr", exr);
-  EXPECT_THAT(error_of_reading(folder / "a.exr"), testing::HasSubstr("a.exr: "));
+  EXPECT_TRUE(says(error_of_reading(folder / "a.exr"), "a.exr: "));
 }
 
 }  // namespace
