@@ -78,9 +78,7 @@ void stop_if_interrupted() {
 
 void write_json(const std::filesystem::path& path, const nlohmann::json& value) {
   if (path.empty()) return;
-  AtomicFile file(path);
-  file.write(value.dump(2) + "\n");
-  file.commit();
+  write_file(path, value.dump(2) + "\n");
 }
 
 }  // namespace redmap::cli

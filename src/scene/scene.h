@@ -32,8 +32,8 @@ struct Light {
   enum class Type { kPoint, kDirectional };
   Type type = Type::kPoint;
   std::string name;
-  Vec3 position;       ///< world; point lights
-  Vec3 to_light;       ///< world, unit; directional lights
+  Vec3 position;           ///< world; point lights
+  Vec3 to_light;           ///< world, unit; directional lights
   Rgb intensity{1, 1, 1};  ///< point: irradiance at distance 1 (falls with its square); directional: irradiance
   bool shadows = true;
 };

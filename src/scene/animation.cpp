@@ -1,0 +1,28 @@
+#include "scene/animation.h"
+
+#include <algorithm>
+
+namespace redmap {
+
+Vec3 interpolate(const std::vector<AnimationKey>& keys, int frame) {
+  const auto after =
+      std::upper_bound(keys.begin(), keys.end(), frame, [](int at, const AnimationKey& key) { return at < key.frame; });
+  if (after == keys.begin()) return keys.front().value;
+  const AnimationKey& before = *(after - 1);
+  if (after == keys.end() || before.value == after->value) return before.value;
+  const auto span = static_cast<float>(after->frame - before.frame);
+  return lerp(before.value, after->value, static_cast<float>(frame - before.frame) / span);
+}
+
+Scene animate(const Scene& scene, const Animation& animation, int frame) {
+  Scene moment = scene;
+  for (const AnimationTrack& track : animation.tracks) track.apply(moment, interpolate(track.keys, frame));
+  if (animation.turntable)
+    moment.objects[animation.turntable->object].transform.rotate_degrees.y +=
+        animation.turntable->degrees_per_frame * static_cast<float>(frame - 1);
+  moment.time_seconds = static_cast<float>(frame - 1) / animation.frames_per_second;
+  for (Light& light : moment.lights) light.to_light = normalized(light.to_light);
+  return moment;
+}
+
+}  // namespace redmap

@@ -1,0 +1,119 @@
+#include "scene/scene_file.h"
+
+#include <cmath>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "scene/animation_reader.h"
+#include "scene/object_reader.h"
+#include "scene/overrides.h"
+#include "scene/table_reader.h"
+
+namespace redmap {
+
+namespace {
+
+constexpr int kMaxPictureSize = 16384;   // pixels along one side
+constexpr float kSmallestAngle = 1e-4f;  // radians between view and up below which the frame is numerical noise
+
+std::string read_text(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) throw Error("{}: expected a scene file, found no such file", path.string());
+  if (std::filesystem::is_directory(path)) throw Error("{}: expected a scene file, found a folder", path.string());
+  return read_file(path);
+}
+
+Camera read_camera(const toml::table& table) {
+  const TableReader reader(table, "camera", {"position", "look_at", "up", "fov", "width", "height"});
+  Camera camera;
+  camera.position = reader.vec3("position");
+  camera.look_at = reader.vec3("look_at", camera.look_at);
+  camera.up = reader.vec3("up", camera.up);
+  camera.vertical_fov_degrees = reader.number("fov", camera.vertical_fov_degrees, kFieldOfView);
+  camera.width = reader.integer("width", camera.width, 1, kMaxPictureSize);
+  camera.height = reader.integer("height", camera.height, 1, kMaxPictureSize);
+  return camera;
+}
+
+Light read_light(const std::string& name, const toml::table& table) {
+  const TableReader reader(table, "light." + name, {"type", "position", "to_light", "intensity", "shadows"});
+  Light light;
+  light.name = name;
+  const bool is_point = reader.choice("type", {"point", "directional"}) == "point";
+  light.type = is_point ? Light::Type::kPoint : Light::Type::kDirectional;
+  const char* superfluous = is_point ? "to_light" : "position";
+  if (reader.has(superfluous))
+    reader.complain(superfluous, is_point ? "expected only for a directional light, found it for a point light"
+                                          : "expected only for a point light, found it for a directional light");
+  (is_point ? light.position : light.to_light) = reader.vec3(is_point ? "position" : "to_light");
+  light.intensity = reader.rgb("intensity", light.intensity);
+  light.shadows = reader.boolean("shadows", true);
+  return light;
+}
+
+Scene read_scene(const toml::table& file, const std::filesystem::path& path) {
+  const TableReader reader(file, "", {"background", "camera", "light", "object", "animation"});
+  if (!reader.has("camera")) throw Error("{}: expected a [camera] table, found none", path.string());
+  Scene scene;
+  scene.background = reader.rgb("background", scene.background);
+  scene.camera = read_camera(reader.table("camera"));
+  if (reader.has("light")) {
+    const TableReader lights(reader.table("light"), "light");
+    for (const std::string& name : lights.keys()) scene.lights.push_back(read_light(name, lights.table(name)));
+  }
+  if (reader.has("object")) {
+    ObjectReader object_reader(path.parent_path());
+    const TableReader objects(reader.table("object"), "object");
+    for (const std::string& name : objects.keys())
+      scene.objects.push_back(object_reader.read(name, objects.table(name)));
+  }
+  return scene;
+}
+
+/// What only the values together can tell. Throws Error.
+void check_moment(const Scene& scene, const std::filesystem::path& path, int frame) {
+  const Camera& camera = scene.camera;
+  const Vec3 view = camera.look_at - camera.position;
+  if (!(length(view) > 0) || !std::isfinite(length(view)))
+    throw Error("{}: camera at frame {}: expected look_at away from position, found both at [{}, {}, {}]",
+                path.string(), frame, camera.position.x, camera.position.y, camera.position.z);
+  if (!(length(cross(normalized(view), normalized(camera.up))) > kSmallestAngle))
+    throw Error("{}: camera at frame {}: expected up across the viewing direction, found [{}, {}, {}] along it",
+                path.string(), frame, camera.up.x, camera.up.y, camera.up.z);
+  for (const Light& light : scene.lights)
+    if (light.type == Light::Type::kDirectional && !(length(light.to_light) > 0))
+      throw Error("{}: light.{}.to_light at frame {}: expected a direction, found the zero vector", path.string(),
+                  light.name, frame);
+}
+
+}  // namespace
+
+SceneFile SceneFile::load(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  toml::table file = parse_toml(read_text(path), path.string());
+  apply_overrides(file, overrides);
+  SceneFile scene;
+  scene.path_ = path;
+  scene.rest_ = read_scene(file, path);
+  if (file.contains("animation"))
+    scene.animation_ = read_animation(TableReader(file, "").table("animation"), scene.rest_);
+  for (int frame = 1; frame <= scene.frame_count(); ++frame)
+    check_moment(animate(scene.rest_, scene.animation_, frame), path, frame);
+  return scene;
+}
+
+Scene SceneFile::at(int frame) const {
+  if (frame < 1 || frame > frame_count())
+    throw Error("{}: expected a frame from 1 to {}, found {}", path_.string(), frame_count(), frame);
+  return animate(rest_, animation_, frame);
+}
+
+const Object& SceneFile::object(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const Object& object : rest_.objects) {
+    if (object.name == name) return object;
+    names.push_back(object.name);
+  }
+  throw Error("{}: expected an object of the scene, found \"{}\"{}", path_.string(), name, suggestion(name, names));
+}
+
+}  // namespace redmap

@@ -1,0 +1,36 @@
+// Scenes as TOML files (docs/scene.md shows one): read, checked, and resolved for any frame.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "scene/animation.h"
+#include "scene/scene.h"
+
+namespace redmap {
+
+class SceneFile {
+ public:
+  /// Reads `path` with everything it names: meshes (each once; those without uv are unwrapped, remembered in maps/
+  /// beside the scene) and shaders. `overrides` are "object.parameter=value" as in overrides.h. Every frame has been
+  /// checked when this returns. Throws Error naming file, line, column, key, what was expected and what was found.
+  static SceneFile load(const std::filesystem::path& path, std::span<const std::string> overrides = {});
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Frames are 1 to frame_count(); 1 for a still scene.
+  int frame_count() const { return animation_.frame_count; }
+  float frames_per_second() const { return animation_.frames_per_second; }
+
+  /// The scene at `frame`; surfaces and shaders are shared between frames. Throws Error outside 1 to frame_count().
+  Scene at(int frame) const;
+  /// The object of that name, at rest. Throws Error naming the nearest.
+  const Object& object(const std::string& name) const;
+
+ private:
+  std::filesystem::path path_;
+  Scene rest_;
+  Animation animation_;
+};
+
+}  // namespace redmap
