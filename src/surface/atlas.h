@@ -9,17 +9,17 @@
 namespace redmap {
 
 struct AtlasOptions {
-  int charts = 40;             ///< charts to start from; topology and stretch add more
+  int charts = 40;               ///< charts to start from; topology and stretch add more
   double max_l2_stretch = 1.25;  ///< a chart that stretches more is split (Sander et al. 2001)
-  int resolution = 1024;       ///< texels across for which the gutter is sized
-  int cell_texels = 4;         ///< packing grid: charts never share a cell, so levels up to log2(cell) are clean
+  int resolution = 1024;         ///< texels across for which the gutter is sized
+  int cell_texels = 4;           ///< packing grid: charts never share a cell, so levels up to log2(cell) are clean
   int gutter_texels = 1;
 };
 
 struct AtlasReport {
   int charts = 0;
-  double l2_stretch = 0;      ///< over the whole mesh, 1 is isometric
-  double packing = 0;         ///< covered part of the square
+  double l2_stretch = 0;  ///< over the whole mesh, 1 is isometric
+  double packing = 0;     ///< covered part of the square
   int flips = 0;
 };
 
@@ -28,6 +28,7 @@ AtlasReport unwrap(TriangleMesh& mesh, const AtlasOptions& options = {});
 
 /// As unwrap(), remembered in `cache_folder` under a hash of the mesh and the options. A folder that cannot be written
 /// only means that nothing is remembered.
-AtlasReport unwrap_cached(TriangleMesh& mesh, const std::filesystem::path& cache_folder, const AtlasOptions& options = {});
+AtlasReport unwrap_cached(TriangleMesh& mesh, const std::filesystem::path& cache_folder,
+                          const AtlasOptions& options = {});
 
 }  // namespace redmap

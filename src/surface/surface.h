@@ -33,7 +33,8 @@ struct HitCoordinates {
 
 /// The surface at a hit, object space. `dp_du`, `dp_dv`: change of position with the map's uv; `dn_du`, `dn_dv`: change
 /// of the interpolated unit normal with it. `normal` is the
-/// interpolated unit normal, `geometric_normal` the face's, both outward. `chart` tells disconnected parts of the map apart.
+/// interpolated unit normal, `geometric_normal` the face's, both outward. `chart` tells disconnected parts of the map
+/// apart.
 struct SurfaceHit {
   Vec3 position, normal, geometric_normal, tangent, dp_du, dp_dv, dn_du, dn_dv;
   Vec2 uv;
@@ -52,9 +53,10 @@ class Surface {
   virtual double area() const = 0;
   virtual double uv_area() const = 0;
 
-  /// Points under the texels of `region` of a map of `extent` texels. For every texel t with `wanted[t] != 0` (row-major
-  /// within the region; empty means all) and every offset (in texels from the texel's corner, [0, 1)), one point if
-  /// the surface is there, none otherwise. Where two triangles claim a place the one with the smaller index has it.
+  /// Points under the texels of `region` of a map of `extent` texels. For every texel t with `wanted[t] != 0`
+  /// (row-major within the region; empty means all) and every offset (in texels from the texel's corner, [0, 1)), one
+  /// point if the surface is there, none otherwise. Where two triangles claim a place the one with the smaller index
+  /// has it.
   virtual void rasterize(Extent extent, TexelRegion region, std::span<const Vec2> offsets,
                          std::span<const std::uint8_t> wanted, TexelPoints& out) const = 0;
 
