@@ -68,8 +68,8 @@ void FilteredShading::shade(const ShadingBatch& batch, ShadedBatch& out, RenderC
   }
 }
 
-void FilteredShading::transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints,
-                                    float time, Planes<3>& out) const {
+void FilteredShading::transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints, float time,
+                                    Planes<3>& out) const {
   original_->transmittance(hits, footprints, time, out);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const float part = filtered_part(footprints[i]);

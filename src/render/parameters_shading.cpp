@@ -14,8 +14,8 @@ namespace {
 enum Channel { kDiffuse = 0, kSpecular = 3, kTransmittance = 6, kWeightedRoughness = 9, kSpecularLuminance = 10 };
 
 // Tokuyoshi and Kaplanyan 2019, "Improved geometric specular antialiasing": kernel variance is clamped at .18. The
-// pixel kernel's variance is 1/12, a box of one pixel, the same box that the footprint is filtered with; their .15915
-// (a wider Gaussian) was tried and is worse on our scenes.
+// pixel kernel's variance is 1/12, the same box of one (sub-)pixel that the footprint is filtered with, where theirs is
+// a Gaussian of .15915.
 constexpr float kPixelVariance = 1.0f / 12, kMaximumKernelRoughness = 0.18f;
 
 /// Roughness squared that the turning of the normal within the footprint adds.

@@ -21,7 +21,7 @@ struct Handles {
   RTCScene world = nullptr;
 };
 
-Ray packet_ray(const RTCRayN* rays, unsigned size, unsigned i) {
+Ray packet_ray(RTCRayN* rays, unsigned size, unsigned i) {
   return {{RTCRayN_org_x(rays, size, i), RTCRayN_org_y(rays, size, i), RTCRayN_org_z(rays, size, i)},
           {RTCRayN_dir_x(rays, size, i), RTCRayN_dir_y(rays, size, i), RTCRayN_dir_z(rays, size, i)},
           RTCRayN_tnear(rays, size, i),

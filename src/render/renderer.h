@@ -1,0 +1,81 @@
+// Rendering frames: which rays a method shoots through a pixel, over tiles, in parallel (paper, section 5).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "base/image.h"
+#include "map/reduction_map.h"
+#include "render/shading.h"
+#include "render/tracer.h"
+#include "scene/scene.h"
+
+namespace redmap {
+
+enum class Method {
+  kOriginal,     ///< the shader itself, at the same rays as the map
+  kSupersample,  ///< the shader itself, `spp` stratified and jittered samples a pixel
+  kParameters,   ///< mip-mapped averaged material parameters: what production does today
+  kPaper,        ///< the paper's section 5 to the letter
+  kMap,          ///< the reduction map
+};
+inline constexpr std::string_view kMethodNames[] = {"original", "supersample", "parameters", "paper", "map"};
+
+/// Rays a pixel for original, parameters and map.
+enum class Quality {
+  kFast,     ///< one, and more at silhouettes, chart seams and occlusions
+  kDefault,  ///< 2 x 2, and more there
+};
+
+struct RenderOptions {
+  Method method = Method::kMap;
+  Quality quality = Quality::kDefault;
+  int spp = 16;  ///< for supersample; with original 0: the map's rays, else a regular grid of as many
+  std::uint64_t seed = 0;
+  bool classify = false;                 ///< supersample only: tell pixels apart by what their samples saw
+  std::function<void(double)> progress;  ///< called now and then, from any thread, with the part done
+  std::function<bool()> cancelled;       ///< polled between tiles
+};
+
+/// What the samples of a pixel saw.
+enum class PixelClass : std::uint8_t {
+  kBackground,  ///< no object
+  kInterior,    ///< one object, one chart, continuous depth, the same lights in all
+  kSeam,        ///< as interior, but several charts
+  kSilhouette,  ///< anything else
+};
+
+struct RenderedFrame {
+  Image image;  ///< linear RGB
+  RenderCounts counts;
+  double seconds = 0;
+  std::vector<PixelClass> classes;  ///< row-major, if asked for
+};
+
+/// What an object is shaded from, as far as the method needs it.
+struct ObjectData {
+  std::shared_ptr<const ReductionMap> map;           ///< kMap and kPaper
+  std::shared_ptr<const Pyramid<float>> parameters;  ///< kParameters
+  std::shared_ptr<const Pyramid<float>> normals;     ///< kPaper
+};
+
+class Renderer {
+ public:
+  /// `data` has one entry an object. Throws Error if something that the method needs is missing or of another shader.
+  Renderer(const Scene& scene, const RenderOptions& options, const std::vector<ObjectData>& data);
+
+  /// Renders the same objects as they stand in `scene`. `frame` decides the random numbers.
+  RenderedFrame render(const Scene& scene, int frame);
+
+ private:
+  RenderOptions options_;
+  Tracer tracer_;
+  std::vector<std::unique_ptr<ObjectShading>> shading_;
+  std::vector<std::uint8_t> supersampled_;  ///< by object: its map does not reduce
+  bool transmits_ = false;
+};
+
+}  // namespace redmap

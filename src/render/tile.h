@@ -1,0 +1,35 @@
+// The rays of one tile of pixels, by method.
+#pragma once
+
+#include <vector>
+
+#include "render/renderer.h"
+#include "render/wavefront.h"
+
+namespace redmap {
+
+/// Pixels a side: a wavefront of 4 096 samples at 2 x 2 rays stays in the second-level cache.
+inline constexpr int kTileSize = 32;
+
+struct Tile {
+  int x0, y0, x1, y1;  ///< pixels, end excluded
+};
+
+struct TileJob {
+  const FrameContext* frame;
+  const RenderOptions* options;
+  const std::vector<std::uint8_t>* supersampled;  ///< by object
+  int image_width;
+  std::uint64_t frame_seed;
+  float* rgb;
+  PixelClass* classes;  ///< null if not asked for
+};
+
+/// Jittered samples of the shader itself.
+RenderCounts render_supersampled(const TileJob& job, Tile tile);
+/// A regular grid of samples, refined at silhouettes, chart seams and occlusions.
+RenderCounts render_grid(const TileJob& job, Tile tile);
+/// Four corner rays and one centre ray a pixel, subdivided where the corners see different objects or charts.
+RenderCounts render_paper(const TileJob& job, Tile tile);
+
+}  // namespace redmap

@@ -1,0 +1,94 @@
+// The paper's footprints (section 5.3): four corner rays, their enclosing square, subdivision where they disagree.
+#include <algorithm>
+#include <cmath>
+
+#include "render/tile.h"
+
+namespace redmap {
+
+namespace {
+
+// A pixel whose corners disagree is subdivided once, into 4 x 4: "we shoot more rays that further subdivide the pixel".
+constexpr int kSubdivision = 4;
+
+/// uv and chart at the corners of the pixels of a tile.
+struct CornerGrid {
+  int width;
+  std::vector<RayHit> hits;
+  std::vector<SampleView> views;
+  std::vector<Vec2> uv;
+
+  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * width + i; }
+};
+
+CornerGrid trace_corners(const TileJob& job, Tile tile, RenderCounts& counts) {
+  CornerGrid grid{tile.x1 - tile.x0 + 1, {}, {}, {}};
+  TracedSamples traced;
+  for (int y = tile.y0; y <= tile.y1; ++y)
+    for (int x = tile.x0; x <= tile.x1; ++x)
+      traced.samples.push_back({0, static_cast<float>(x), static_cast<float>(y), 1, 1});
+  trace_samples(*job.frame, traced, counts);
+  grid.hits = traced.hits;
+  grid.views.resize(grid.hits.size()), grid.uv.resize(grid.hits.size());
+  for (std::size_t k = 0; k < grid.hits.size(); ++k) {
+    if (grid.hits[k].object == kNoObject) continue;
+    SurfaceHit hit;
+    job.frame->scene->objects[grid.hits[k].object].surface->complete({&grid.hits[k].where, 1}, {&hit, 1});
+    grid.views[k].chart = hit.chart;
+    grid.uv[k] = hit.uv;
+  }
+  return grid;
+}
+
+/// Whether all four corners see the object and chart of the first.
+bool corners_agree(const CornerGrid& grid, const std::size_t (&corner)[4]) {
+  for (std::size_t k : corner)
+    if (grid.hits[k].object != grid.hits[corner[0]].object || grid.views[k].chart != grid.views[corner[0]].chart)
+      return false;
+  return true;
+}
+
+/// The axis-aligned square around the four corners, in uv.
+Footprint enclosing_square(const CornerGrid& grid, const std::size_t (&corner)[4], bool wraps_u) {
+  Vec2 lo = grid.uv[corner[0]], hi = lo;
+  for (std::size_t k : corner) {
+    Vec2 uv = grid.uv[k];
+    if (wraps_u) uv.x -= std::round(uv.x - grid.uv[corner[0]].x);  // the corner's image nearest to the first
+    lo = {std::min(lo.x, uv.x), std::min(lo.y, uv.y)};
+    hi = {std::max(hi.x, uv.x), std::max(hi.y, uv.y)};
+  }
+  const float side = std::max({hi.x - lo.x, hi.y - lo.y, 1e-9f});
+  return {(lo + hi) * 0.5f, {side, 0}, {0, side}};
+}
+
+}  // namespace
+
+RenderCounts render_paper(const TileJob& job, Tile tile) {
+  RenderCounts counts;
+  const CornerGrid grid = trace_corners(job, tile, counts);
+  TracedSamples whole, subdivided;
+  for (int y = tile.y0; y < tile.y1; ++y)
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const int i = x - tile.x0, j = y - tile.y0;
+      const std::size_t corner[4] = {grid.index(i, j), grid.index(i + 1, j), grid.index(i, j + 1),
+                                     grid.index(i + 1, j + 1)};
+      const std::uint32_t pixel = static_cast<std::uint32_t>(y) * job.image_width + x;
+      const std::uint32_t object = grid.hits[corner[0]].object;
+      const bool reduces = object == kNoObject || !(*job.supersampled)[object];
+      counts.supersampled_pixels += !reduces;
+      if (!reduces || !corners_agree(grid, corner)) {
+        append_pixel_samples(pixel, job.image_width, kSubdivision, kSubdivision, 0, subdivided.samples);
+        continue;
+      }
+      append_pixel_samples(pixel, job.image_width, 1, 1, 0, whole.samples);
+      const bool wraps = object != kNoObject && job.frame->scene->objects[object].surface->wraps_u();
+      whole.footprints.push_back(object == kNoObject ? Footprint{} : enclosing_square(grid, corner, wraps));
+    }
+  trace_samples(*job.frame, whole, counts);
+  shade_samples(*job.frame, whole, job.rgb, counts);
+  trace_samples(*job.frame, subdivided, counts);
+  shade_samples(*job.frame, subdivided, job.rgb, counts);
+  return counts;
+}
+
+}  // namespace redmap

@@ -1,0 +1,242 @@
+#include "render/wavefront.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/hit_footprint.h"
+
+namespace redmap {
+
+namespace {
+
+constexpr int kMaxLayers = 16;               // surfaces seen through, one behind the other
+constexpr float kMinimumThroughput = 1e-3f;  // a quarter of an 8-bit step: nothing behind it can be seen
+
+/// Rays leave a surface this far above it, as a part of the object's size: well over the error of a float hit.
+constexpr float kRayOffset = 1e-4f;
+
+/// A sample on its way through transparent surfaces.
+struct Path {
+  std::uint32_t sample;
+  Ray ray;
+  RayHit hit;
+  Rgb throughput;
+};
+
+float offset_of(const Object& object) {
+  return kRayOffset * 0.5f * length(object.surface->upper() - object.surface->lower()) * object.transform.scale;
+}
+
+/// Places `paths` (all on one object) and their footprints.
+void place_hits(const FrameContext& frame, const TracedSamples& traced, std::span<const Path> paths, bool first_layer,
+                ShadingBatch& batch) {
+  const std::uint32_t object = paths.front().hit.object;
+  const Placement& placement = frame.tracer->placement(object);
+  std::vector<HitCoordinates> where(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) where[i] = paths[i].hit.where;
+  batch.hits.resize(paths.size());
+  frame.scene->objects[object].surface->complete(where, batch.hits);
+
+  const std::size_t count = paths.size();
+  batch.turned.resize(count), batch.frames.resize(count), batch.footprints.resize(count), batch.to_viewer.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    SurfaceHit& hit = batch.hits[i];
+    const Vec3 direction = placement.direction_object(paths[i].ray.direction);
+    batch.to_viewer[i] = -direction;
+    batch.turned[i] = dot(hit.geometric_normal, direction) > 0;
+    if (batch.turned[i]) hit.normal = -hit.normal, hit.geometric_normal = -hit.geometric_normal;
+    batch.frames[i] = make_frame(hit.normal, hit.tangent);
+    if (first_layer && !traced.footprints.empty()) {
+      batch.footprints[i] = traced.footprints[paths[i].sample];
+      continue;
+    }
+    const CameraSample& sample = traced.samples[paths[i].sample];
+    const DirectionDifferential world = direction_differential(frame.camera, sample.x, sample.y);
+    const Vec3 eye = placement.point_object(frame.camera.origin);
+    batch.footprints[i] =
+        camera_footprint(hit, direction, {placement.direction_object(world.dx), placement.direction_object(world.dy)},
+                         length(hit.position - eye), sample.extent);
+  }
+}
+
+/// Light `light` as it arrives at every hit of the batch, shadows included.
+void light_hits(const FrameContext& frame, const TracedSamples& traced, std::span<const Path> paths, const Light& light,
+                ShadingBatch& batch, ShadingBatch::Light& lit, RenderCounts& counts) {
+  const Object& object = frame.scene->objects[paths.front().hit.object];
+  const Placement& placement = frame.tracer->placement(paths.front().hit.object);
+  const float offset = offset_of(object);
+  lit.to_light.resize(paths.size());
+  lit.irradiance = Planes<3>(paths.size());
+
+  std::vector<Ray> shadow_rays;
+  std::vector<float> widths;
+  std::vector<std::uint32_t> owner;
+  for (std::uint32_t i = 0; i < paths.size(); ++i) {
+    const SurfaceHit& hit = batch.hits[i];
+    const Vec3 position = placement.point_world(hit.position);
+    const bool point = light.type == Light::Type::kPoint;
+    const Vec3 path = point ? light.position - position : light.to_light;
+    const float distance = point ? length(path) : std::numeric_limits<float>::max();
+    const Vec3 direction = normalized(path);
+    lit.to_light[i] = placement.direction_object(direction);
+    const Vec3 normal = placement.direction_world(hit.geometric_normal);
+    // A face turned away from the light shadows itself.
+    if (light.shadows && dot(normal, direction) <= 0) continue;
+    const Rgb irradiance = point ? light.intensity * (1 / (distance * distance)) : light.intensity;
+    lit.irradiance.set(i, Vec3{irradiance.r, irradiance.g, irradiance.b});
+    if (!light.shadows) continue;
+    shadow_rays.push_back({position + normal * offset, direction, 0, point ? distance - offset : distance});
+    widths.push_back(length(position - frame.camera.origin) * frame.camera.pixel_angle *
+                     traced.samples[paths[i].sample].extent);
+    owner.push_back(i);
+  }
+  const std::vector<Rgb> passed = transmittance_along(frame, std::move(shadow_rays), widths, counts);
+  for (std::size_t k = 0; k < owner.size(); ++k) {
+    const Vec3 e = lit.irradiance.get(owner[k]);
+    lit.irradiance.set(owner[k], Vec3{e.x * passed[k].r, e.y * passed[k].g, e.z * passed[k].b});
+  }
+}
+
+void record_views(const FrameContext& frame, std::span<const Path> paths, const ShadingBatch& batch,
+                  std::vector<SampleView>& views) {
+  const Placement& placement = frame.tracer->placement(paths.front().hit.object);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    SampleView& view = views[paths[i].sample];
+    view.chart = batch.hits[i].chart;
+    view.position = placement.point_world(batch.hits[i].position);
+    view.geometric_normal = placement.direction_world(batch.hits[i].geometric_normal);
+    for (std::size_t l = 0; l < batch.lights.size(); ++l) {
+      const Vec3 e = batch.lights[l].irradiance.get(i);
+      if (e.x + e.y + e.z > 0) view.lit |= 1u << std::min<std::size_t>(l, 31);
+    }
+  }
+}
+
+void add_light(const CameraSample& sample, Rgb light, float* rgb) {
+  float* pixel = rgb + 3 * static_cast<std::size_t>(sample.pixel);
+  pixel[0] += sample.weight * light.r;
+  pixel[1] += sample.weight * light.g;
+  pixel[2] += sample.weight * light.b;
+}
+
+/// Shades the paths that hit one object, and appends those that go on behind it to `onward`.
+void shade_object(const FrameContext& frame, const TracedSamples& traced, std::span<const Path> paths, bool first_layer,
+                  float* rgb, RenderCounts& counts, std::vector<SampleView>* views, std::vector<Path>& onward) {
+  ShadingBatch batch;
+  batch.time = frame.scene->time_seconds;
+  place_hits(frame, traced, paths, first_layer, batch);
+  batch.lights.resize(frame.scene->lights.size());
+  for (std::size_t l = 0; l < batch.lights.size(); ++l)
+    light_hits(frame, traced, paths, frame.scene->lights[l], batch, batch.lights[l], counts);
+  if (views && first_layer) record_views(frame, paths, batch, *views);
+
+  ShadedBatch shaded;
+  const std::uint32_t object = paths.front().hit.object;
+  frame.shading[object]->shade(batch, shaded, counts);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    add_light(traced.samples[paths[i].sample], paths[i].throughput * shaded.radiance.rgb(i), rgb);
+    const Rgb throughput = paths[i].throughput * shaded.transmittance.rgb(i);
+    if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
+    Ray ray = paths[i].ray;
+    ray.t_near = paths[i].hit.t + offset_of(frame.scene->objects[object]);
+    onward.push_back({paths[i].sample, ray, {}, throughput});
+  }
+}
+
+/// Lets the rays that hit `object` through as far as it transmits, and on to what lies behind. False if none did.
+bool pass_object(const FrameContext& frame, std::uint32_t object, std::span<const RayHit> hits,
+                 std::span<const float> widths, std::vector<Ray>& rays, std::vector<Rgb>& passed) {
+  std::vector<std::uint32_t> owner;
+  std::vector<HitCoordinates> where;
+  for (std::uint32_t i = 0; i < rays.size(); ++i)
+    if (hits[i].object == object) owner.push_back(i), where.push_back(hits[i].where);
+  if (owner.empty()) return false;
+
+  const Object& hit_object = frame.scene->objects[object];
+  std::vector<SurfaceHit> surface(owner.size());
+  hit_object.surface->complete(where, surface);
+  std::vector<Footprint> footprints(owner.size());
+  for (std::size_t k = 0; k < owner.size(); ++k)
+    footprints[k] = round_footprint(surface[k], widths[owner[k]] / hit_object.transform.scale);
+  Planes<3> transmittance;
+  frame.shading[object]->transmittance(surface, footprints, frame.scene->time_seconds, transmittance);
+  for (std::size_t k = 0; k < owner.size(); ++k) {
+    const std::uint32_t i = owner[k];
+    passed[i] = passed[i] * transmittance.rgb(k);
+    rays[i].t_near = hits[i].t + offset_of(hit_object);
+    if (passed[i] == Rgb{}) rays[i].t_far = -1;  // blocked: an empty interval is not traced again
+  }
+  return true;
+}
+
+}  // namespace
+
+Ray camera_ray(const CameraRays& camera, const CameraSample& sample) {
+  return {camera.origin, normalized(camera.unnormalised(sample.x, sample.y))};
+}
+
+void trace_samples(const FrameContext& frame, TracedSamples& traced, RenderCounts& counts) {
+  traced.rays.resize(traced.samples.size());
+  traced.hits.resize(traced.samples.size());
+  for (std::size_t i = 0; i < traced.samples.size(); ++i) traced.rays[i] = camera_ray(frame.camera, traced.samples[i]);
+  frame.tracer->intersect(traced.rays, traced.hits);
+  counts.camera_rays += traced.rays.size();
+}
+
+void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
+                   std::vector<SampleView>* views) {
+  if (views) views->assign(traced.samples.size(), {});
+  std::vector<Path> paths(traced.samples.size());
+  for (std::uint32_t i = 0; i < paths.size(); ++i) paths[i] = {i, traced.rays[i], traced.hits[i], {1, 1, 1}};
+
+  for (int layer = 0; layer < kMaxLayers && !paths.empty(); ++layer) {
+    // One batch an object; the order within it stays that of the samples.
+    std::stable_sort(paths.begin(), paths.end(),
+                     [](const Path& a, const Path& b) { return a.hit.object < b.hit.object; });
+    std::vector<Path> onward;
+    for (std::size_t first = 0; first < paths.size();) {
+      std::size_t last = first;
+      while (last < paths.size() && paths[last].hit.object == paths[first].hit.object) ++last;
+      const std::span<const Path> same(paths.data() + first, last - first);
+      if (same.front().hit.object != kNoObject)
+        shade_object(frame, traced, same, layer == 0, rgb, counts, views, onward);
+      else
+        for (const Path& path : same)
+          add_light(traced.samples[path.sample], path.throughput * frame.scene->background, rgb);
+      first = last;
+    }
+    // What lies behind.
+    std::vector<Ray> rays(onward.size());
+    std::vector<RayHit> hits(onward.size());
+    for (std::size_t i = 0; i < onward.size(); ++i) rays[i] = onward[i].ray;
+    frame.tracer->intersect(rays, hits);
+    counts.camera_rays += rays.size();
+    for (std::size_t i = 0; i < onward.size(); ++i) onward[i].hit = hits[i];
+    paths = std::move(onward);
+  }
+}
+
+std::vector<Rgb> transmittance_along(const FrameContext& frame, std::vector<Ray> rays, std::span<const float> widths,
+                                     RenderCounts& counts) {
+  std::vector<Rgb> passed(rays.size(), Rgb{1, 1, 1});
+  counts.shadow_rays += rays.size();
+  if (!frame.transmits) {
+    std::vector<std::uint8_t> blocked(rays.size());
+    frame.tracer->occluded(rays, blocked);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      if (blocked[i]) passed[i] = {};
+    return passed;
+  }
+  std::vector<RayHit> hits(rays.size());
+  for (int layer = 0; layer < kMaxLayers; ++layer) {
+    frame.tracer->intersect(rays, hits);
+    bool any = false;
+    for (std::uint32_t object = 0; object < frame.scene->objects.size(); ++object)
+      any |= pass_object(frame, object, hits, widths, rays, passed);
+    if (!any) return passed;
+    counts.shadow_rays += rays.size();
+  }
+  return passed;
+}
+
+}  // namespace redmap

@@ -1,0 +1,55 @@
+// From traced samples to pixels: hits sorted by object, shaded in batches, seen through where they transmit.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/camera_rays.h"
+#include "render/shading.h"
+#include "render/tracer.h"
+
+namespace redmap {
+
+/// Everything that stays the same over a frame.
+struct FrameContext {
+  const Scene* scene;
+  CameraRays camera;
+  const Tracer* tracer;
+  std::span<const std::unique_ptr<ObjectShading>> shading;  ///< one an object
+  bool transmits = false;                                   ///< whether any object lets light through
+};
+
+/// Camera samples, their rays and first hits; one entry a sample. `footprints` is empty, or overrides the footprints
+/// that ray differentials give to first hits.
+struct TracedSamples {
+  std::vector<CameraSample> samples;
+  std::vector<Ray> rays;
+  std::vector<RayHit> hits;
+  std::vector<Footprint> footprints;
+
+  void clear() { samples.clear(), rays.clear(), hits.clear(), footprints.clear(); }
+};
+
+/// What the first hit of a sample saw, for telling pixels apart.
+struct SampleView {
+  std::uint32_t chart = 0;
+  std::uint32_t lit = 0;            ///< bit l: light l reaches the place (lights beyond 32 share the last bit)
+  Vec3 position, geometric_normal;  ///< world space
+};
+
+Ray camera_ray(const CameraRays& camera, const CameraSample& sample);
+
+/// Shoots the rays of `traced.samples`.
+void trace_samples(const FrameContext& frame, TracedSamples& traced, RenderCounts& counts);
+
+/// Adds every sample's light to `rgb` (three floats a pixel, row-major). `views`, if not null, receives one entry a
+/// sample.
+void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
+                   std::vector<SampleView>* views = nullptr);
+
+/// Part of the light that passes along each ray, from `from` on; `widths` are the world-space widths of the beams.
+std::vector<Rgb> transmittance_along(const FrameContext& frame, std::vector<Ray> rays, std::span<const float> widths,
+                                     RenderCounts& counts);
+
+}  // namespace redmap
