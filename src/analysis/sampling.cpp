@@ -1,0 +1,66 @@
+#include "analysis/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace redmap {
+namespace {
+
+/// Rows with less than this part of the largest RMS are taken for zero: what is left of them is rounding.
+constexpr double kZeroRow = 1e-6;
+
+void copy_rows(const Planes<3>& rgb, int first_row, SampledReflectances& out) {
+  for (int c = 0; c < 3; ++c) std::copy_n(rgb[c], out.places, out.row(first_row + c));
+}
+
+}  // namespace
+
+ReflectanceSampler::ReflectanceSampler(const ShaderInfo& shader)
+    : directions_(reflection_samples()), transmits_(shader.transmits), emits_(shader.emits) {}
+
+int ReflectanceSampler::rows() const { return 3 * (kDirectionSamples + (emits_ ? 1 : 0)); }
+
+void ReflectanceSampler::sample(const BoundPatterns& patterns, SampledReflectances& out) const {
+  out.places = patterns.size();
+  out.stride = padded(out.places);
+  out.rows = rows();
+  patterns.radiance_all(directions_, out.values);
+  out.values.resize(out.rows * out.stride);
+
+  const int transmittance_row = 3 * kReflectionSamples;
+  std::fill_n(out.row(transmittance_row), 3 * out.stride, 0.0f);
+  Planes<3> rgb;
+  if (transmits_) {
+    patterns.transmittance(rgb);
+    copy_rows(rgb, transmittance_row, out);
+  }
+  if (emits_) {
+    patterns.emission(rgb);
+    copy_rows(rgb, transmittance_row + 3, out);
+  }
+}
+
+void RowScaling::add(const SampledReflectances& sampled) {
+  square_sums_.resize(sampled.rows);
+  places_ += sampled.places;
+  for (int r = 0; r < sampled.rows; ++r) {
+    const float* row = sampled.row(r);
+    for (std::size_t i = 0; i < sampled.places; ++i) square_sums_[r] += static_cast<double>(row[i]) * row[i];
+  }
+}
+
+std::vector<float> RowScaling::scales() const {
+  const double largest = square_sums_.empty() ? 0 : *std::max_element(square_sums_.begin(), square_sums_.end());
+  std::vector<float> scales(square_sums_.size());
+  for (std::size_t r = 0; r < scales.size(); ++r)
+    if (square_sums_[r] > kZeroRow * kZeroRow * largest)
+      scales[r] = static_cast<float>(std::sqrt(static_cast<double>(places_) / square_sums_[r]));
+  return scales;
+}
+
+void scaled_reflectance(const SampledReflectances& sampled, std::size_t place, const std::vector<float>& scales,
+                        float* out) {
+  for (int r = 0; r < sampled.rows; ++r) out[r] = scales[r] * sampled.row(r)[place];
+}
+
+}  // namespace redmap
