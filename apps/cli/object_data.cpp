@@ -1,0 +1,38 @@
+#include "object_data.h"
+
+#include <algorithm>
+
+#include "bake/baselines.h"
+#include "base/error.h"
+#include "map/map_file.h"
+
+namespace redmap::cli {
+
+std::vector<ObjectData> load_object_data(const Scene& scene, Method method) {
+  std::vector<ObjectData> data(scene.objects.size());
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (method == Method::kParameters && object.shader->info().has_material)
+      data[i].parameters = std::make_shared<const Pyramid<float>>(
+          build_parameter_pyramid(*object.surface, *object.shader, object.map_size));
+    if (method != Method::kMap && method != Method::kPaper) continue;
+    if (!std::filesystem::exists(object.map_path))
+      throw Error("object '{}' has no reduction map at {}: run `redmap bake` on the scene first", object.name,
+                  object.map_path.string());
+    data[i].map = std::make_shared<const ReductionMap>(read_map(object.map_path));
+    if (method == Method::kPaper)
+      data[i].normals =
+          std::make_shared<const Pyramid<float>>(build_normal_pyramid(*object.surface, data[i].map->size));
+  }
+  return data;
+}
+
+Method method_of(const std::string& name) {
+  const auto found = std::find(std::begin(kMethodNames), std::end(kMethodNames), name);
+  if (found == std::end(kMethodNames)) throw Error("there is no method '{}'", name);
+  return static_cast<Method>(found - std::begin(kMethodNames));
+}
+
+std::vector<std::string> method_names() { return {std::begin(kMethodNames), std::end(kMethodNames)}; }
+
+}  // namespace redmap::cli

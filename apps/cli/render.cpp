@@ -1,0 +1,187 @@
+// redmap render: a scene to pictures, frame by frame, by any of the methods.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/image.h"
+#include "base/parallel.h"
+#include "commands.h"
+#include "common.h"
+#include "object_data.h"
+#include "scene/fingerprint.h"
+#include "scene/frame_spec.h"
+#include "scene/scene_file.h"
+
+namespace redmap::cli {
+
+namespace {
+
+// Raised whenever the same scene, map and settings would give another picture.
+constexpr std::uint64_t kRendererVersion = 1;
+
+struct RenderCommandOptions {
+  CommonOptions common;
+  std::string scene, output;
+  std::string method = "map", quality = "default", frames;
+  int spp = 0;
+  std::uint64_t seed = 0;
+  bool force = false;
+  std::vector<std::string> overrides;
+};
+
+RenderOptions render_options(const RenderCommandOptions& options) {
+  RenderOptions render;
+  render.method = method_of(options.method);
+  render.quality = options.quality == "fast" ? Quality::kFast : Quality::kDefault;
+  render.spp = options.spp > 0 ? options.spp : render.method == Method::kSupersample ? 16 : 0;
+  render.seed = options.seed;
+  render.cancelled = interrupted;
+  return render;
+}
+
+std::vector<int> frames_to_render(const RenderCommandOptions& options, const SceneFile& file) {
+  if (options.frames.empty()) {
+    std::vector<int> all(has_frame_number(options.output) ? file.frame_count() : 1);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i) + 1;
+    return all;
+  }
+  const std::vector<int> frames = parse_frames(options.frames);
+  if (frames.back() > file.frame_count())
+    throw Error("--frames {}: {} ends at frame {}", options.frames, options.scene, file.frame_count());
+  if (frames.size() > 1 && !has_frame_number(options.output))
+    throw Error("--output {}: {} frames need a name such as out.####.png", options.output, frames.size());
+  return frames;
+}
+
+/// Decides, with the scene, what a frame looks like.
+std::uint64_t settings_fingerprint(const RenderOptions& options, const Scene& scene) {
+  std::uint64_t hash =
+      hash64(kRendererVersion, static_cast<std::uint64_t>(options.method), static_cast<std::uint64_t>(options.quality));
+  hash = hash64(hash, static_cast<std::uint64_t>(options.spp), options.seed);
+  for (const Object& object : scene.objects) {
+    hash = hash64(hash, static_cast<std::uint64_t>(object.map_size));
+    if (options.method != Method::kMap && options.method != Method::kPaper) continue;
+    std::ifstream map(object.map_path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(map), {}};
+    hash = hash_bytes(hash, bytes.data(), bytes.size());
+  }
+  return hash;
+}
+
+/// Beside every finished frame stands a hidden file that says what it was made of.
+std::filesystem::path fingerprint_path(const std::filesystem::path& picture) {
+  return picture.parent_path() / fmt::format(".{}.fingerprint", picture.filename().string());
+}
+
+std::string fingerprint_text(const std::filesystem::path& picture, std::uint64_t fingerprint) {
+  return fmt::format("{:016x} {}\n", fingerprint, std::filesystem::file_size(picture));
+}
+
+bool is_finished(const std::filesystem::path& picture, std::uint64_t fingerprint) {
+  std::ifstream file(fingerprint_path(picture));
+  const std::string found{std::istreambuf_iterator<char>(file), {}};
+  return !found.empty() && std::filesystem::exists(picture) && found == fingerprint_text(picture, fingerprint);
+}
+
+void remember_finished(const std::filesystem::path& picture, std::uint64_t fingerprint) {
+  AtomicFile file(fingerprint_path(picture));
+  std::ofstream(file.path()) << fingerprint_text(picture, fingerprint);
+  file.commit();
+}
+
+nlohmann::json frame_json(int frame, const std::string& path, const RenderedFrame& rendered) {
+  const double pixels = static_cast<double>(rendered.image.pixels());
+  const auto per_pixel = [&](std::uint64_t count) { return static_cast<double>(count) / pixels; };
+  return {{"frame", frame},
+          {"path", path},
+          {"seconds", rendered.seconds},
+          {"rays_per_pixel", per_pixel(rendered.counts.camera_rays)},
+          {"shadow_rays_per_pixel", per_pixel(rendered.counts.shadow_rays)},
+          {"shader_calls_per_pixel", per_pixel(rendered.counts.shader_calls)},
+          {"lookups_per_pixel", per_pixel(rendered.counts.lookups)},
+          {"supersampled_pixels", rendered.counts.supersampled_pixels}};
+}
+
+void report_maps(const Scene& scene, const std::vector<ObjectData>& data) {
+  for (std::size_t i = 0; i < data.size(); ++i)
+    if (data[i].map && data[i].map->verdict == MapVerdict::kDoesNotReduce)
+      fmt::print("object '{}' is supersampled: {}\n", scene.objects[i].name, data[i].map->verdict_reason);
+}
+
+void run_render(const RenderCommandOptions& options) {
+  const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
+  const SceneFile file = SceneFile::load(options.scene, options.overrides);
+  const std::vector<int> frames = frames_to_render(options, file);
+  const RenderOptions render = render_options(options);
+  const std::uint64_t settings = settings_fingerprint(render, file.at(frames.front()));
+
+  std::unique_ptr<Renderer> renderer;  // made once a frame really has to be rendered
+  Progress progress("rendering");
+  nlohmann::json rows = nlohmann::json::array();
+  std::size_t skipped = 0;
+  double seconds = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    stop_if_interrupted();
+    const Scene scene = file.at(frames[i]);
+    const std::string path = frame_path(options.output, frames[i]);
+    const std::uint64_t fingerprint = hash64(scene_fingerprint(scene), settings, static_cast<std::uint64_t>(frames[i]));
+    if (!options.force && is_finished(path, fingerprint)) {
+      ++skipped;
+      continue;
+    }
+    if (!renderer) {
+      const std::vector<ObjectData> data = load_object_data(scene, render.method);
+      report_maps(scene, data);
+      RenderOptions with_progress = render;
+      with_progress.progress = [&progress, &frames, &i](double part) {
+        progress.update((static_cast<double>(i) + part) / static_cast<double>(frames.size()));
+      };
+      renderer = std::make_unique<Renderer>(scene, with_progress, data);
+    }
+    const RenderedFrame rendered = renderer->render(scene, frames[i]);
+    stop_if_interrupted();
+    write_image(path, rendered.image);
+    remember_finished(path, fingerprint);
+    rows.push_back(frame_json(frames[i], path, rendered));
+    seconds += rendered.seconds;
+  }
+  write_json(options.common.json, {{"method", options.method}, {"frames", rows}, {"skipped", skipped}});
+  fmt::print("{} frame(s) by {} in {:.2f} s", rows.size(), options.method, seconds);
+  fmt::print(skipped ? ", {} already finished\n" : "\n", skipped);
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+  auto options = std::make_shared<RenderCommandOptions>();
+  CLI::App* sub = app.add_subcommand("render", "Render a scene to pictures, by its maps or by another method");
+  sub->add_option("scene", options->scene, "Scene file (TOML)")->required();
+  sub->add_option("-o,--output", options->output, "Picture: out.exr, out.png, or out.####.png for frames")->required();
+  sub->add_option(
+         "--method", options->method,
+         "map: reduction maps. original: the shader at the map's own rays. supersample: --spp jittered "
+         "samples. parameters: mip-mapped averaged material parameters. paper: Van Horn and Turk to the letter")
+      ->check(CLI::IsMember(method_names()))
+      ->capture_default_str();
+  sub->add_option("--quality", options->quality, "Rays a pixel: default (2 x 2) or fast (1), more where needed")
+      ->check(CLI::IsMember({"default", "fast"}))
+      ->capture_default_str();
+  sub->add_option("--spp", options->spp, "Samples a pixel for supersample (16 if not given) and original")
+      ->check(CLI::Range(1, 1 << 20));
+  sub->add_option("--frames", options->frames, "Frames, for example 1-300,310,320-400:2 (all if not given)");
+  sub->add_option("--seed", options->seed, "Seed of the jitter")->capture_default_str();
+  sub->add_flag("--force", options->force, "Render again what is already finished");
+  sub->add_option("-D", options->overrides, "Override, for example -D ball.scale=20 or -D camera.width=1920");
+  add_common_options(*sub, options->common);
+  sub->footer(
+      "Frames whose scene, map and settings have not changed since they were finished are skipped.\n"
+      "Example: redmap render scenes/sphere_noise.toml -o out.####.png --frames 1-24 --quality fast");
+  sub->callback([options] { run_render(*options); });
+}
+
+}  // namespace redmap::cli
