@@ -1,6 +1,6 @@
 // Thresholded noise: glossy blue islands in rough yellow paint.
 #include "include/ggx.glsl"
-#include "include/noise.glsl"
+#include "include/islands.glsl"
 #include "include/phong.glsl"
 
 struct Parameters {
@@ -20,7 +20,7 @@ struct Pattern {
 };
 
 Pattern pattern(Surface at, Parameters p) {
-  float value = gradient_noise(at.position * p.scale) + 0.5 * gradient_noise(at.position * (p.scale * 2.07) + vec3(5.3));
+  float value = island_height(at.position, p.scale);
   Pattern m;
   m.is_blue = value > p.threshold;
   m.diffuse = mix(p.yellow, p.blue, bvec3(m.is_blue));
