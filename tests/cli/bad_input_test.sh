@@ -1,0 +1,64 @@
+#!/bin/bash
+# Bad input on the command line: exit status 1 and one line on stderr that says what was wrong.
+#   bad_input_test.sh REDMAP_BINARY
+set -u
+redmap=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+# refuses PART ARGUMENTS...: `redmap ARGUMENTS` must complain about PART.
+refuses() {
+  local part=$1 status
+  shift
+  "$redmap" "$@" >"$folder/stdout" 2>"$folder/stderr"
+  status=$?
+  if [ $status -ne 1 ] || [ "$(wc -l <"$folder/stderr")" -ne 1 ] || ! grep -q '^redmap: ' "$folder/stderr" ||
+    ! grep -qF -- "$part" "$folder/stderr"; then
+    echo "redmap $*: expected status 1 and one line with \"$part\", found status $status and:"
+    cat "$folder/stderr"
+    failures=$((failures + 1))
+  fi
+}
+
+# accepts PART ARGUMENTS...: `redmap ARGUMENTS` must succeed in silence and print PART.
+accepts() {
+  local part=$1
+  shift
+  if ! "$redmap" "$@" >"$folder/stdout" 2>"$folder/stderr" || [ -s "$folder/stderr" ] ||
+    ! grep -qF -- "$part" "$folder/stdout"; then
+    echo "redmap $*: expected success and \"$part\", found:"
+    cat "$folder/stdout" "$folder/stderr"
+    failures=$((failures + 1))
+  fi
+}
+
+accepts "redmap bake" --help
+for command in bake render compare inspect bench list mesh; do accepts "--threads" $command --help; done
+accepts "noise" list
+accepts "checker" list shaders
+accepts "[0.1, 1000]" list noise
+accepts "[0.1, 1000]" list parameters noise
+accepts "noise" list noise --json "$folder/noise.json"
+python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["name"] == "noise"' "$folder/noise.json" || failures=$((failures + 1))
+
+refuses "subcommand"
+refuses "nonsense" nonsense
+refuses "see redmap list --help" list --nonsense
+refuses "noise" list nois
+refuses "expected the name of a shader" list parameters
+refuses "expected nothing after it" list noise marble
+refuses "threads" list --threads many
+refuses "$folder/no/such/folder" list --json "$folder/no/such/folder/list.json"
+[ ! -e "$folder/no" ] || failures=$((failures + 1))
+
+printf '[camera]\nposition = [0, 0, 5]\n[object.ball]\nsurface = "sphere"\nshader = "noise"\nsacle = 2\n' >"$folder/broken.toml"
+refuses "$folder/missing.toml" bake "$folder/missing.toml"
+refuses "$folder/missing.toml" render "$folder/missing.toml" -o "$folder/out.png"
+refuses "broken.toml:6:9: object.ball.sacle: unknown key (did you mean \"scale\"?)" bake "$folder/broken.toml"
+refuses "broken.toml:6:9: object.ball.sacle" render "$folder/broken.toml" -o "$folder/out.png"
+refuses "$folder/missing.exr" inspect "$folder/missing.exr"
+refuses "missing" compare "$folder/missing.exr" "$folder/missing.exr"
+[ ! -e "$folder/out.png" ] || failures=$((failures + 1))
+
+[ $failures -eq 0 ]
