@@ -1,0 +1,27 @@
+// One object under one shadowed light, seen from as far away as a minification asks for.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace redmap::bench {
+
+/// "sphere", "cylinder", or a mesh NAME_*.obj in `models`: bunny, dragon. Throws Error naming the file it looked for.
+std::shared_ptr<const Surface> make_bench_surface(const std::string& object, const std::filesystem::path& models);
+
+/// `object` with `shader`, turned to view `view`, such that the median over its pixels of the square root of
+/// (pixel footprint area / texel area) is `minification` for maps of `map_size`.
+Scene make_bench_scene(const std::shared_ptr<const Surface>& surface, const std::shared_ptr<const Shader>& shader,
+                       int map_size, double minification, int view);
+
+/// That median, over pixels whose centre hits the object.
+double median_minification(const Scene& scene);
+
+/// Degrees by which the object has to turn for its nearest point to move by `pixels`.
+double degrees_for_pixels(const Scene& scene, double pixels);
+
+}  // namespace redmap::bench
