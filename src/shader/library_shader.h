@@ -4,6 +4,8 @@
 // Each text stands in its own namespace; its functions are found there through the types of their arguments.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -20,10 +22,39 @@ struct LanePlanes {
   static Vector load(const Planes<3>& planes, std::size_t i) {
     return {lanes::load(planes[0] + i), lanes::load(planes[1] + i), lanes::load(planes[2] + i)};
   }
-  static Vector broadcast(const Planes<3>& planes, std::size_t i) { return {planes[0][i], planes[1][i], planes[2][i]}; }
   static void store(Planes<3>& planes, std::size_t i, Vector v) {
     lanes::store(planes[0] + i, v.x), lanes::store(planes[1] + i, v.y), lanes::store(planes[2] + i, v.z);
   }
+};
+
+/// Direction pairs, kLanes at a time; `step` floats from one block to the next.
+struct DirectionLanes {
+  std::array<const float*, 3> to_light, to_viewer;
+  std::size_t step;
+
+  DirectionLanes(std::array<const float*, 3> light, std::array<const float*, 3> viewer, std::size_t step_)
+      : to_light(light), to_viewer(viewer), step(step_) {}
+  explicit DirectionLanes(const DirectionPairs& pairs)
+      : to_light{pairs.to_light[0], pairs.to_light[1], pairs.to_light[2]},
+        to_viewer{pairs.to_viewer[0], pairs.to_viewer[1], pairs.to_viewer[2]},
+        step(kLanes) {}
+};
+
+/// One direction pair in all lanes.
+class BroadcastPair {
+ public:
+  BroadcastPair(const DirectionPairs& pairs, std::size_t pair) {
+    for (int c = 0; c < 3; ++c) {
+      redmap::lanes::store(&to_light_[c][0], pairs.to_light[c][pair]);
+      redmap::lanes::store(&to_viewer_[c][0], pairs.to_viewer[c][pair]);
+    }
+  }
+  DirectionLanes lanes() const {
+    return {{to_light_[0], to_light_[1], to_light_[2]}, {to_viewer_[0], to_viewer_[1], to_viewer_[2]}, 0};
+  }
+
+ private:
+  alignas(64) float to_light_[3][kLanes], to_viewer_[3][kLanes];
 };
 
 /// A text in the split form: pattern() once a place, radiance(Pattern) in the shading frame.
@@ -124,27 +155,26 @@ class LibraryPatterns final : public BoundPatterns {
 
   void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
     out.resize(size_);
-    for (std::size_t i = 0; i < size_; i += kLanes)
-      Lanes::store(out, i,
-                   evaluate(blocks_[i / kLanes], Lanes::load(pairs.to_light, i), Lanes::load(pairs.to_viewer, i)));
+    evaluate(blocks_.data(), 1, DirectionLanes(pairs), {out[0], out[1], out[2]}, blocks_.size());
   }
 
   void radiance_one(std::size_t pattern, const DirectionPairs& pairs, Planes<3>& out) const override {
     out.resize(pairs.size());
     const Bound bound = broadcast_lane(blocks_[pattern / kLanes], pattern % kLanes);
-    for (std::size_t i = 0; i < pairs.size(); i += kLanes)
-      Lanes::store(out, i, evaluate(bound, Lanes::load(pairs.to_light, i), Lanes::load(pairs.to_viewer, i)));
+    evaluate(&bound, 0, DirectionLanes(pairs), {out[0], out[1], out[2]}, padded(pairs.size()) / kLanes);
   }
 
   void radiance_all(const DirectionPairs& pairs, LaneVector<float>& out) const override {
     const std::size_t stride = padded(size_);
     out.resize(pairs.size() * 3 * stride);
-    for (std::size_t i = 0; i < stride; i += kLanes)
+    // Runs of blocks that stay in the first-level cache while every pair visits them.
+    constexpr std::size_t kRun = std::max<std::size_t>(1, 16384 / sizeof(Bound));
+    for (std::size_t b = 0; b < blocks_.size(); b += kRun)
       for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-        const Vector value = evaluate(blocks_[i / kLanes], Lanes::broadcast(pairs.to_light, pair),
-                                      Lanes::broadcast(pairs.to_viewer, pair));
-        float* to = out.data() + pair * 3 * stride + i;
-        lanes::store(to, value.x), lanes::store(to + stride, value.y), lanes::store(to + 2 * stride, value.z);
+        const BroadcastPair directions(pairs, pair);
+        float* to = out.data() + pair * 3 * stride + b * kLanes;
+        evaluate(&blocks_[b], 1, directions.lanes(), {to, to + stride, to + 2 * stride},
+                 std::min(kRun, blocks_.size() - b));
       }
   }
 
@@ -162,10 +192,23 @@ class LibraryPatterns final : public BoundPatterns {
   bool materials(Materials& out) const override { return store_materials<Vector>(blocks_, size_, out); }
 
  private:
-  /// The one place where radiance is compiled, never inlined: otherwise each loop might contract multiplications and
-  /// additions in its own way, and the three would not agree bit for bit.
-  [[gnu::noipa]] Vector evaluate(const Bound& bound, const Vector& to_light, const Vector& to_viewer) const {
-    return Form::evaluate(bound, parameters_, to_light, to_viewer);
+  /// Radiance of `count` blocks in a row (step 1) or of one block again and again (step 0). The one place where
+  /// radiance is compiled: otherwise each loop might contract multiplications and additions in its own way, and the
+  /// three functions above would not agree bit for bit.
+  [[gnu::noipa, gnu::flatten]] void evaluate(const Bound* bounds, std::size_t step, DirectionLanes directions,
+                               std::array<float*, 3> out, std::size_t count) const {
+    const Parameters parameters = parameters_;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = i * directions.step;
+      const auto load = [at](const std::array<const float*, 3>& from) {
+        return Vector(lanes::load(from[0] + at), lanes::load(from[1] + at), lanes::load(from[2] + at));
+      };
+      const Vector value =
+          Form::evaluate(bounds[i * step], parameters, load(directions.to_light), load(directions.to_viewer));
+      lanes::store(out[0] + i * kLanes, value.x);
+      lanes::store(out[1] + i * kLanes, value.y);
+      lanes::store(out[2] + i * kLanes, value.z);
+    }
   }
 
   std::size_t size_;

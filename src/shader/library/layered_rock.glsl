@@ -29,7 +29,8 @@ Pattern pattern(Surface at, Parameters p) {
   // Beds follow the folded height; their kind is noise that hardly changes along them.
   float height = p.beds * folded.y + 0.5 * fbm(folded * 3.1, 8);
   vec3 along = vec3(0.15 * folded.x, height, 0.15 * folded.z);
-  float iron = smoothstep(0.05, 0.3, fbm(along * 0.8, 8));
+  float specks = max(fbm(folded * 9.0 + vec3(23.9), 8), fbm(q * 13.0 + vec3(59.3), 8) - 0.1);
+  float iron = smoothstep(0.05, 0.3, fbm(along * 0.8, 8) + 0.35 * specks);
   float shale = smoothstep(0.12, 0.2, fbm(along * 0.55 + vec3(41.9), 8));
 
   // Veins run between the cells of broken rock, lichen grows in rosettes where it is damp.
@@ -37,6 +38,7 @@ Pattern pattern(Surface at, Parameters p) {
   float vein = 1.0 - smoothstep(p.veins, 1.5 * p.veins, blocks.second - blocks.nearest);
   Cells rosettes = worley(q * 5.0 + 0.3 * fbm3(q * 6.1));
   float damp = fbm(q * 1.7 + vec3(73.3), 8) + 0.6 - rosettes.nearest;
+  damp += 0.3 * fbm(q * 8.3 + vec3(87.7), 8);
   float lichen = smoothstep(0.45 - p.lichen, 0.6 - p.lichen, damp);
 
   Coating rock = Coating(p.sandstone, vec3(0.03), vec3(0.0));

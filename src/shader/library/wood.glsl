@@ -24,6 +24,7 @@ Pattern pattern(Surface at, Parameters p) {
   vec3 bent = at.position + p.wobble * fbm3(slow) + (0.3 * p.wobble) * fbm3(slow * 4.3 + vec3(19.1));
   float radius = length(vec2(bent.x - 1.3, bent.z + 0.4)) * p.rings;
   float year = fract(radius + 0.12 * fbm(bent * vec3(6.0, 0.8, 6.0), 8));
+  year = clamp(year + 0.1 * fbm(bent * vec3(19.0, 1.7, 19.0) + vec3(43.1), 8), 0.0, 1.0);
   float late = smoothstep(0.35, 0.85, year) * (1.0 - smoothstep(0.93, 1.0, year));
 
   // Fibres and pores are drawn out along the trunk; pores gather in the spring wood.

@@ -28,6 +28,12 @@ Pattern pattern(Surface at, Parameters p) {
   float primer = smoothstep(0.3, 0.32, depth);
   float metal = smoothstep(0.42, 0.45, depth);
 
+  // Scratches follow the zeros of drawn-out noise, where something has rubbed along the paint.
+  float rubbed = smoothstep(0.1, 0.4, fbm(q * 1.3 + vec3(7.7), 8));
+  float across = abs(fbm(q * vec3(2.0, 9.0, 2.0) + 0.1 * ragged, 8));
+  float scratch = rubbed * (1.0 - smoothstep(0.012, 0.02, across));
+  metal = max(metal, scratch);
+
   // Rust starts on bare metal and runs down from it; pits in it are Worley cells of folded space.
   vec3 run = vec3(ragged.x, 0.25 * ragged.y, ragged.z);
   Cells pits = worley(ragged * 14.0);
@@ -35,7 +41,7 @@ Pattern pattern(Surface at, Parameters p) {
   float rust = smoothstep(-0.02, 0.08, creeping - 0.1 + p.rust) * smoothstep(0.3, 0.5, depth + 0.12 * creeping);
 
   // Dirt dulls the paint.
-  float dirt = smoothstep(-0.1, 0.7, fbm(q * 3.1 + 0.5 * ragged + vec3(97.3), 8));
+  float dirt = smoothstep(-0.1, 0.7, fbm(q * 3.1 + 0.5 * ragged + vec3(97.3), 8) + 0.3 * fbm(run * 9.1, 8));
   Coating coat = Coating(p.paint, vec3(0.02), vec3(0.14));
   coat = mix_coating(coat, Coating(0.5 * p.paint + vec3(0.05), vec3(0.06), vec3(0.0)), dirt);
   coat = mix_coating(coat, Coating(p.primer, vec3(0.03), vec3(0.0)), primer);
