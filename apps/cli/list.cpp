@@ -44,7 +44,8 @@ void list_shaders(const CommonOptions& common) {
   nlohmann::json shaders = nlohmann::json::array();
   for (const std::string& name : library_shader_names()) {
     const ShaderInfo& shader = library_shader_info(name);
-    fmt::print("{:18} {:2} parameters  {}\n", name, shader.parameters.size(), shader.summary);
+    const std::size_t count = shader.parameters.size();
+    fmt::print("{:18} {:2} {:10}  {}\n", name, count, count == 1 ? "parameter" : "parameters", shader.summary);
     shaders.push_back(to_json(shader));
   }
   write_json(common.json, {{"shaders", shaders}});
@@ -54,9 +55,8 @@ void list_parameters(const std::string& name, const CommonOptions& common) {
   const ShaderInfo& shader = library_shader_info(name);
   fmt::print("{}: {}\n", shader.name, shader.summary);
   for (const ParameterInfo& parameter : shader.parameters)
-    fmt::print("  {:16} {:5} {:>14}  [{}, {}] {:10} {}\n", parameter.name, parameter.type,
-               numbers(parameter.default_value), parameter.minimum, parameter.maximum, parameter.unit,
-               parameter.meaning);
+    fmt::print("  {:16} {:5} {:>14}  {:11} {:7} {}\n", parameter.name, parameter.type, numbers(parameter.default_value),
+               fmt::format("[{}, {}]", parameter.minimum, parameter.maximum), parameter.unit, parameter.meaning);
   write_json(common.json, to_json(shader));
 }
 

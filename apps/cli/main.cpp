@@ -7,7 +7,9 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
+#include "base/nearest.h"
 #include "commands.h"
 #include "common.h"
 
@@ -40,6 +42,17 @@ std::string command_line_so_far(const CLI::App& app) {
   return app.get_name() + (chosen.empty() ? "" : " " + command_line_so_far(*chosen.front()));
 }
 
+/// What is wrong with the command line. CLI11 takes an unknown command for a missing one: say which it was.
+std::string usage_complaint(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> extra = app.remaining();
+  if (extra.empty() || !app.get_subcommands().empty())
+    return fmt::format("{} (see {} --help)", error.what(), command_line_so_far(app));
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) commands.push_back(command->get_name());
+  return fmt::format("expected a command, found \"{}\" (did you mean \"{}\"? see redmap --help)", extra.front(),
+                     redmap::nearest(extra.front(), commands));
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"redmap: mip-maps for procedural shaders (Van Horn and Turk 2008)", "redmap"};
   app.footer(
@@ -54,7 +67,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return fail(fmt::format("{} (see {} --help)", error.what(), command_line_so_far(app)));
+    return fail(usage_complaint(app, error));
   }
   return 0;
 }

@@ -55,7 +55,8 @@ std::shared_ptr<const Shader> read_shader(const TableReader& object) {
 
 std::shared_ptr<const Surface> ObjectReader::load_mesh(const TableReader& reader) {
   const std::filesystem::path path = scene_folder_ / reader.text("mesh");
-  if (!std::filesystem::is_regular_file(path)) reader.fail("mesh", "a mesh file relative to the scene file");
+  if (!std::filesystem::is_regular_file(path))
+    reader.complain("mesh", fmt::format("expected a mesh file, found no file {}", path.lexically_normal().string()));
   auto& surface = meshes_[std::filesystem::weakly_canonical(path)];
   if (surface) return surface;
   return surface = at_key(reader, "mesh", [&] {
