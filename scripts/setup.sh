@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Installs what redmap is built and checked with, from Debian's packages. Does nothing where all of it is there.
+set -euo pipefail
+
+packages=(cmake ninja-build g++ ccache mold libembree-dev libopenexr-dev libopenimageio-dev libtbb-dev libeigen3-dev
+  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libtinyobjloader-dev libtinygltf-dev libstb-dev
+  libgtest-dev libbenchmark-dev libmeshoptimizer-dev clang-format clang-tidy git python3)
+command -v npm >/dev/null || packages+=(nodejs npm)
+
+missing=()
+for package in "${packages[@]}"; do
+  [[ $(dpkg-query -W -f '${Status}' "$package" 2>/dev/null) == "install ok installed" ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  echo "setup: all ${#packages[@]} packages are installed"
+  exit 0
+fi
+
+as_root=()
+((EUID == 0)) || as_root=(sudo)
+echo "setup: installing ${missing[*]}"
+"${as_root[@]}" apt-get update -q
+DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}"
+echo "setup: installed ${#missing[@]} packages"
