@@ -1,0 +1,103 @@
+#include "bake/bake.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "bake/project.h"
+#include "bake/sample.h"
+#include "bake/texel_grid.h"
+#include "bake/verdict.h"
+
+namespace redmap {
+namespace {
+
+static_assert(kMaxBasis == kMaxUnknowns && kMaxBasis == kMaxChannels);
+
+/// Largest map: its texels still have 32-bit indices.
+constexpr int kMaxSize = 16384;
+
+void validate(const BakeOptions& o) {
+  if (o.size < 1 || o.size > kMaxSize) throw Error("bake: size: expected 1 to {}, found {}", kMaxSize, o.size);
+  if (!(o.tolerance > 0 && std::isfinite(o.tolerance)))
+    throw Error("bake: tolerance: expected a number above 0, found {}", o.tolerance);
+  if (o.max_basis < 1 || o.max_basis > kMaxBasis)
+    throw Error("bake: max_basis: expected 1 to {}, found {}", kMaxBasis, o.max_basis);
+  if (o.sub_samples < 1 || o.sub_samples > 8)
+    throw Error("bake: sub_samples: expected 1 to 8, found {}", o.sub_samples);
+}
+
+/// Seconds since the last call, into the report.
+class Stopwatch {
+ public:
+  explicit Stopwatch(BakeReport& report) : report_(report) {}
+  void lap(const char* stage) {
+    const Clock::time_point now = Clock::now();
+    report_.stages.push_back({stage, std::chrono::duration<double>(now - last_).count()});
+    report_.seconds += report_.stages.back().seconds;
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  BakeReport& report_;
+  Clock::time_point last_ = Clock::now();
+};
+
+std::uint64_t peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+ReductionMap describe(const Surface& surface, const Shader& shader, const BakeOptions& options,
+                      const ChosenBasis& basis) {
+  ReductionMap map;
+  map.shader = shader.info().name;
+  for (std::size_t i = 0; i < shader.info().parameters.size(); ++i)
+    map.parameters[shader.info().parameters[i].name] = shader.parameters()[i];
+  map.surface_fingerprint = surface.fingerprint();
+  map.size = options.size;
+  map.tolerance = options.tolerance;
+  map.residual = basis.residual;
+  for (const ReflectancePlace& p : basis.places) map.basis.push_back({p.position, p.normal, p.tangent, p.uv});
+  return map;
+}
+
+}  // namespace
+
+ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options, BakeReport* report) {
+  validate(options);
+  BakeReport ours;
+  ours.stages.reserve(8);
+  Stopwatch stopwatch(ours);
+  BakeMonitor monitor(options.progress);
+
+  const TexelGrid grid(surface, options.size);
+  SampledTexels sampled = sample_texels(grid, shader, options, monitor);
+  ours.distinct_reflectances = sampled.unique.distinct();
+  stopwatch.lap("sample");
+
+  ChosenBasis basis = choose(sampled, options);
+  stopwatch.lap("choose");
+
+  BaseLevel weights = project(grid, shader, options, sampled, basis, monitor, ours);
+  ours.outlier_basis = basis.outliers;
+  stopwatch.lap("project");
+
+  ReductionMap map = describe(surface, shader, options, basis);
+  map.weights = WeightPyramid(weights);
+  stopwatch.lap("build");
+
+  judge(grid, shader, sampled, map);
+  stopwatch.lap("judge");
+  monitor.begin("done", 1.0f);
+  monitor.advance(1);
+  if (monitor.stopped()) throw BakeInterrupted();
+  ours.peak_bytes = peak_bytes();
+  if (report) *report = ours;
+  return map;
+}
+
+}  // namespace redmap
