@@ -2,11 +2,10 @@
 // bring theirs along.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "base/error.h"
-#include "base/random.h"
 #include "surface/charts.h"
+#include "surface/hash_bytes.h"
 #include "surface/mesh.h"
 #include "surface/uv_grid.h"
 
@@ -47,16 +46,6 @@ struct Face {
   Vec3 dp_du, dp_dv, dn_du, dn_dv, geometric_normal;
   std::uint32_t chart;
 };
-
-std::uint64_t hash_bytes(std::uint64_t hash, const void* data, std::size_t bytes) {
-  const auto* at = static_cast<const std::byte*>(data);
-  for (std::size_t i = 0; i < bytes; i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, at + i, std::min<std::size_t>(8, bytes - i));
-    hash = hash64(hash, word);
-  }
-  return hash64(hash, bytes);
-}
 
 void check(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw Error("mesh: expected at least one triangle, found none");
@@ -136,9 +125,7 @@ void MeshSurface::measure() {
         upper_[axis] = std::max(upper_[axis], position(t, k)[axis]);
       }
   }
-  const auto add = [&](const auto& values) {
-    fingerprint_ = hash_bytes(fingerprint_, values.data(), values.size() * sizeof(values[0]));
-  };
+  const auto add = [&](const auto& values) { fingerprint_ = hash_bytes(fingerprint_, values); };
   add(mesh_.positions), add(mesh_.triangles), add(mesh_.normals), add(mesh_.normal_triangles);
   add(mesh_.uv), add(mesh_.uv_triangles);
 }
