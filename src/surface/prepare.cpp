@@ -10,7 +10,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -87,14 +86,26 @@ void compact(TriangleMesh& mesh) {
   mesh.positions = std::move(positions);
 }
 
-/// Drops triangles without area and all but the first of those with the same three vertices.
+/// Drops triangles without area, doubles, and pairs of opposite triangles on the same vertices: simplification folds
+/// thin parts to such fins, and a closed mesh stays closed without both.
 std::size_t drop_degenerate(TriangleMesh& mesh) {
-  std::set<Triangle> seen;
+  const auto winding = [](const Triangle& t) {
+    return (t[0] < t[1]) == ((t[1] < t[2]) == (t[0] < t[2])) ? 1 : -1;
+  };
+  const auto sorted = [](Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  std::map<Triangle, int> winding_sums;
+  for (const Triangle& t : mesh.triangles) winding_sums[sorted(t)] += winding(t);
   return std::erase_if(mesh.triangles, [&](const Triangle& t) {
     const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
-    Triangle sorted = t;
-    std::sort(sorted.begin(), sorted.end());
-    return !(length(cross(b - a, c - a)) > 0) || !seen.insert(sorted).second;
+    if (!(length(cross(b - a, c - a)) > 0)) return true;
+    // The first triangle of the winding that prevails stays, the others go.
+    int& left = winding_sums[sorted(t)];
+    const bool stays = left * winding(t) > 0;
+    if (stays) left = 0;
+    return !stays;
   });
 }
 

@@ -1,0 +1,98 @@
+// `redmap mesh`: brings a mesh to a size and gives it an atlas.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/parallel.h"
+#include "commands.h"
+#include "common.h"
+#include "surface/atlas.h"
+#include "surface/mesh.h"
+#include "surface/prepare.h"
+
+namespace redmap::cli {
+
+namespace {
+
+struct Options {
+  std::string in, out;
+  PrepareOptions prepare;
+  AtlasOptions atlas;
+  bool unwrap = false;
+  CommonOptions common;
+};
+
+/// A mesh that is only converted or unwrapped keeps its vertices and normals as they are.
+bool asks_for_preparation(const PrepareOptions& options) {
+  return options.triangles > 0 || options.weld_distance > 0 || options.largest_part || options.unit_sphere;
+}
+
+void report_preparation(const PrepareReport& report, bool verbose, nlohmann::json& json) {
+  if (verbose)
+    fmt::print(stderr,
+               "welded {} vertices, dropped {} triangles, subdivided {} times; {} boundary and {} non-manifold edges\n",
+               report.welded_vertices, report.dropped_triangles, report.subdivisions, report.boundary_edges,
+               report.non_manifold_edges);
+  json["prepare"] = {{"welded_vertices", report.welded_vertices},
+                     {"dropped_triangles", report.dropped_triangles},
+                     {"subdivisions", report.subdivisions},
+                     {"boundary_edges", report.boundary_edges},
+                     {"non_manifold_edges", report.non_manifold_edges}};
+}
+
+void report_atlas(const AtlasReport& report, nlohmann::json& json) {
+  fmt::print("atlas: {} charts, L2 stretch {:.3f}, {:.1f} % of the square covered\n", report.charts, report.l2_stretch,
+             100 * report.packing);
+  json["atlas"] = {{"charts", report.charts}, {"l2_stretch", report.l2_stretch}, {"packing", report.packing}};
+}
+
+void run(const Options& options) {
+  const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
+  MeshReport read;
+  TriangleMesh mesh = read_mesh(options.in, &read);
+  if (read.zero_area_triangles > 0)
+    fmt::print(stderr, "{}: dropped {} zero-area triangles\n", options.in, read.zero_area_triangles);
+  nlohmann::json json = {{"zero_area_triangles", read.zero_area_triangles}};
+  if (asks_for_preparation(options.prepare))
+    report_preparation(prepare(mesh, options.prepare), options.common.verbose, json);
+  stop_if_interrupted();
+  if (options.unwrap) report_atlas(unwrap(mesh, options.atlas), json);
+  stop_if_interrupted();
+  write_mesh(options.out, mesh);
+  fmt::print("{}: {} vertices, {} triangles\n", options.out, mesh.positions.size(), mesh.triangles.size());
+  json["vertices"] = mesh.positions.size();
+  json["triangles"] = mesh.triangles.size();
+  write_json(options.common.json, json);
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app) {
+  CLI::App* sub = app.add_subcommand("mesh", "Bring a mesh to a size, give it an atlas, convert it");
+  sub->footer(
+      "Examples:\n"
+      "  redmap mesh bunny.ply -o bunny_10k.obj --triangles 10000 --unit-sphere\n"
+      "  redmap mesh part.glb -o part.obj --unwrap");
+  auto options = std::make_shared<Options>();
+  sub->add_option("mesh", options->in, "the mesh to read: .obj, .ply, .gltf or .glb")->required();
+  sub->add_option("-o,--output", options->out, "the mesh to write: .obj or .ply")->required();
+  sub->add_option("--triangles", options->prepare.triangles, "subdivide and simplify to about as many triangles");
+  sub->add_option("--weld", options->prepare.weld_distance,
+                  "make vertices one that are this near, as a part of the bounding box's diagonal")
+      ->check(CLI::Range(0.0, 0.1));
+  sub->add_flag("--largest-part", options->prepare.largest_part, "keep only the largest connected part");
+  sub->add_flag("--unit-sphere", options->prepare.unit_sphere, "move and scale it into the unit sphere at the origin");
+  sub->add_flag("--unwrap", options->unwrap, "make an atlas");
+  sub->add_option("--charts", options->atlas.charts, "charts the atlas starts from")->capture_default_str();
+  sub->add_option("--max-stretch", options->atlas.max_l2_stretch, "split charts of more L2 stretch than this")
+      ->capture_default_str();
+  sub->add_option("--resolution", options->atlas.resolution, "texels across for which the gutter is sized")
+      ->capture_default_str();
+  add_common_options(*sub, options->common);
+  sub->callback([options] { run(*options); });
+}
+
+}  // namespace redmap::cli
