@@ -1,11 +1,13 @@
 #include "scene/scene_file.h"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "scene/animation_reader.h"
+#include "scene/gltf_import.h"
 #include "scene/object_reader.h"
 #include "scene/overrides.h"
 #include "scene/table_reader.h"
@@ -23,10 +25,11 @@ std::string read_text(const std::filesystem::path& path) {
   return read_file(path);
 }
 
-Camera read_camera(const toml::table& table) {
+/// `imported` stands in for whatever the table does not say.
+Camera read_camera(const toml::table& table, const std::optional<Camera>& imported) {
   const TableReader reader(table, "camera", {"position", "look_at", "up", "fov", "width", "height"});
-  Camera camera;
-  camera.position = reader.vec3("position");
+  Camera camera = imported.value_or(Camera());
+  camera.position = imported ? reader.vec3("position", camera.position) : reader.vec3("position");
   camera.look_at = reader.vec3("look_at", camera.look_at);
   camera.up = reader.vec3("up", camera.up);
   camera.vertical_fov_degrees = reader.number("fov", camera.vertical_fov_degrees, kFieldOfView);
@@ -51,16 +54,39 @@ Light read_light(const std::string& name, const toml::table& table) {
   return light;
 }
 
+/// What [import] brings.
+GltfImport read_import(const TableReader& file, const std::filesystem::path& scene_folder) {
+  if (!file.has("import")) return {};
+  const TableReader reader(file.table("import"), "import", {"gltf"});
+  const std::filesystem::path path = scene_folder / reader.text("gltf");
+  if (!std::filesystem::is_regular_file(path))
+    reader.complain("gltf", fmt::format("expected a glTF file, found no file {}", path.lexically_normal().string()));
+  try {
+    return import_gltf(path);
+  } catch (const Error& error) {
+    reader.complain("gltf", error.what());
+  }
+}
+
+/// The lights of the file, and before them the imported ones that it does not redefine.
+std::vector<Light> read_lights(const TableReader& file, const std::vector<Light>& imported) {
+  static const toml::table kNoLights;
+  const TableReader reader(file.has("light") ? file.table("light") : kNoLights, "light");
+  std::vector<Light> lights;
+  for (const Light& light : imported)
+    if (!reader.has(light.name)) lights.push_back(light);
+  for (const std::string& name : reader.keys()) lights.push_back(read_light(name, reader.table(name)));
+  return lights;
+}
+
 Scene read_scene(const toml::table& file, const std::filesystem::path& path) {
-  const TableReader reader(file, "", {"background", "camera", "light", "object", "animation"});
-  if (!reader.has("camera")) throw Error("{}: expected a [camera] table, found none", path.string());
+  const TableReader reader(file, "", {"background", "import", "camera", "light", "object", "animation"});
+  const GltfImport import = read_import(reader, path.parent_path());
+  if (!reader.has("camera") && !import.camera) throw Error("{}: expected a [camera] table, found none", path.string());
   Scene scene;
   scene.background = reader.rgb("background", scene.background);
-  scene.camera = read_camera(reader.table("camera"));
-  if (reader.has("light")) {
-    const TableReader lights(reader.table("light"), "light");
-    for (const std::string& name : lights.keys()) scene.lights.push_back(read_light(name, lights.table(name)));
-  }
+  scene.camera = reader.has("camera") ? read_camera(reader.table("camera"), import.camera) : *import.camera;
+  scene.lights = read_lights(reader, import.lights);
   if (reader.has("object")) {
     ObjectReader object_reader(path.parent_path());
     const TableReader objects(reader.table("object"), "object");

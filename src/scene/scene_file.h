@@ -13,8 +13,9 @@ namespace redmap {
 class SceneFile {
  public:
   /// Reads `path` with everything it names: meshes (each once; those without uv are unwrapped, remembered in maps/
-  /// beside the scene) and shaders. `overrides` are "object.parameter=value" as in overrides.h. Every frame has been
-  /// checked when this returns. Throws Error naming file, line, column, key, what was expected and what was found.
+  /// beside the scene), shaders, and glTF to take cameras and lights from. `overrides` are "object.parameter=value" as
+  /// in overrides.h. Every frame has been checked when this returns. Throws Error naming file, line, column, key, what
+  /// was expected and what was found.
   static SceneFile load(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
   const std::filesystem::path& path() const { return path_; }
