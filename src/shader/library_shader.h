@@ -196,7 +196,7 @@ class LibraryPatterns final : public BoundPatterns {
   /// radiance is compiled: otherwise each loop might contract multiplications and additions in its own way, and the
   /// three functions above would not agree bit for bit.
   [[gnu::noipa, gnu::flatten]] void evaluate(const Bound* bounds, std::size_t step, DirectionLanes directions,
-                               std::array<float*, 3> out, std::size_t count) const {
+                                             std::array<float*, 3> out, std::size_t count) const {
     const Parameters parameters = parameters_;
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t at = i * directions.step;

@@ -22,6 +22,7 @@ std::vector<Line> read_lines(std::string_view text) {
   std::istringstream stream{std::string(text)};
   bool in_block = false;
   for (std::string raw; std::getline(stream, raw);) {
+    if (raw.ends_with('\r')) raw.pop_back();
     Line line{static_cast<int>(lines.size()) + 1, "", ""};
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const std::string_view rest = std::string_view(raw).substr(i);
@@ -42,7 +43,7 @@ std::vector<Line> read_lines(std::string_view text) {
 }
 
 std::string trimmed(const std::string& s) {
-  const auto first = s.find_first_not_of(" \t\r"), last = s.find_last_not_of(" \t\r");
+  const auto first = s.find_first_not_of(" \t"), last = s.find_last_not_of(" \t");
   return first == std::string::npos ? "" : s.substr(first, last - first + 1);
 }
 
