@@ -1,0 +1,36 @@
+// redmap: mip-maps for procedural shaders (Van Horn and Turk 2008). This is the contents page of the library:
+//
+//   surface + shader -> bake -> reduction map -> lookup and shade -> pictures -> compare
+#pragma once
+
+// What everything is made of: vectors, linear RGB, pictures and their files, the one exception, threads.
+#include "base/error.h"
+#include "base/image.h"
+#include "base/parallel.h"
+#include "base/vec.h"
+
+// Surfaces: spheres, cylinders and triangle meshes with an atlas.
+#include "surface/atlas.h"
+#include "surface/mesh.h"
+#include "surface/surface.h"
+
+// Shaders: the library's, by name, and what can be set on them.
+#include "shader/parameters.h"
+#include "shader/shader.h"
+
+// Reduction maps: what they hold, and filtered lookups.
+#include "map/footprint.h"
+#include "map/pyramid.h"
+#include "map/reduction_map.h"
+
+// From surface and shader to a map.
+#include "bake/bake.h"
+
+// From a scene and its maps to pictures.
+#include "render/renderer.h"
+#include "scene/scene.h"
+#include "scene/scene_file.h"
+
+// How far pictures are from a reference.
+#include "metrics/compare.h"
+#include "metrics/flip.h"
