@@ -3,7 +3,7 @@
 #include <bit>
 #include <string_view>
 
-#include "base/random.h"
+#include "base/hash.h"
 
 namespace redmap {
 
@@ -17,10 +17,7 @@ class Hasher {
   void add(float value) { add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(value == 0 ? 0.0f : value))); }
   void add(Vec3 v) { add(v.x), add(v.y), add(v.z); }
   void add(Rgb c) { add(c.r), add(c.g), add(c.b); }
-  void add(std::string_view text) {
-    add(static_cast<std::uint64_t>(text.size()));
-    for (char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
-  }
+  void add(std::string_view text) { state_ = hash_bytes(state_, text.data(), text.size()); }
   std::uint64_t state() const { return state_; }
 
  private:
