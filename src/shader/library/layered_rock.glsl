@@ -5,9 +5,9 @@
 struct Parameters {
   float scale;     // 1 [0.01, 100] 1/unit: size of everything, in folds per object unit
   float beds;      // 7 [0.1, 100]: beds per fold
-  float folding;   // 0.45 [0, 4]: how far the beds are folded
+  float folding;   // 0.22 [0, 4]: how far the beds are folded
   float veins;     // 0.035 [0, 1]: width of the quartz veins
-  float lichen;    // 0.3 [-2, 2]: part of the surface that lichen grows on, 0 is half
+  float lichen;    // 0.08 [-2, 2]: how much lichen there is, more for larger values
   vec3 sandstone;  // 0.62 0.48 0.32 [0, 1]: diffuse colour of the pale beds
   vec3 iron;       // 0.4 0.14 0.07 [0, 1]: diffuse colour of the red bands
   vec3 shale;      // 0.09 0.1 0.12 [0, 1]: diffuse colour of the dark, shiny beds

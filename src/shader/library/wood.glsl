@@ -6,7 +6,7 @@ struct Parameters {
   float rings;   // 9 [0.1, 1000] 1/unit: year rings per object unit
   float wobble;  // 0.12 [0, 2] unit: how far the rings stray from circles
   float pores;   // 26 [1, 1000] 1/unit: pores per object unit across the trunk
-  float wear;    // 0.1 [-2, 2]: part of the varnish that is gone, 0 is half
+  float wear;    // 0.1 [-2, 2]: how much of the varnish is gone, more for larger values
   vec3 early;    // 0.55 0.34 0.16 [0, 1]: diffuse colour of the spring wood
   vec3 late;     // 0.26 0.12 0.05 [0, 1]: diffuse colour of the autumn wood
   vec3 pore;     // 0.07 0.035 0.02 [0, 1]: diffuse colour of the pores

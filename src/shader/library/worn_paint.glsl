@@ -4,8 +4,8 @@
 
 struct Parameters {
   float scale;  // 1.6 [0.01, 100] 1/unit: size of everything, in worn patches per object unit
-  float wear;   // 0.25 [-2, 2]: how much paint is gone, 0 is half
-  float rust;   // 0.1 [-2, 2]: how much of the steel rusts, 0 is half
+  float wear;   // 0.25 [-2, 2]: how much paint is gone, more for larger values
+  float rust;   // 0.1 [-2, 2]: how much of the bare steel rusts, more for larger values
   vec3 paint;   // 0.05 0.2 0.32 [0, 1]: diffuse colour of the paint
   vec3 primer;  // 0.5 0.47 0.42 [0, 1]: diffuse colour of the primer
   vec3 orange;  // 0.36 0.13 0.04 [0, 1]: diffuse colour of the rust
