@@ -36,6 +36,12 @@ void add_common_options(CLI::App& sub, CommonOptions& options) {
   sub.add_option("--json", options.json, "also write the results here, for scripts")->type_name("FILE");
 }
 
+void add_override_option(CLI::App& sub, std::vector<std::string>& overrides) {
+  sub.add_option("-D", overrides, "change the scene, for example -D ball.scale=20 or -D camera.width=1920; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
 Progress::Progress(std::string what)
     : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), next_write_(start_) {}
 

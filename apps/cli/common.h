@@ -8,6 +8,7 @@
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace redmap::cli {
 
@@ -19,6 +20,10 @@ struct CommonOptions {
 
 /// Declares --threads, -v/--verbose and --json on `sub`, bound to `options`, which must outlive the parse.
 void add_common_options(CLI::App& sub, CommonOptions& options);
+
+/// Declares -D on `sub`, which changes the scene before it is read (scene/scene_file.h); may be given several times,
+/// and takes one argument each time, so that the scene's own name can follow.
+void add_override_option(CLI::App& sub, std::vector<std::string>& overrides);
 
 /// One line on stderr, "what 42 % 1:03 left", only when stderr is a terminal, and cleared when it is destroyed.
 class Progress {
