@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs a build to a temporary place and uses it as a stranger would: the sample of README.md, the block of code after
-# the line "<!-- sample -->", is compiled through find_package(redmap) and run.
+# Installs a build to a temporary place and uses it as a stranger would: the sample of README.md, which is the block of
+# cpp code after the line "<!-- sample -->", is compiled through find_package(redmap) and run.
 # usage: check_install.sh BUILD_DIR
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,8 +27,8 @@ find_package(redmap REQUIRED)
 add_executable(sample sample.cpp)
 target_link_libraries(sample PRIVATE redmap::redmap)
 END
-cmake -S "$work/sample" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/configure.log" ||
-  { cat "$work/configure.log"; exit 1; }
+cmake -S "$work/sample" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix" \
+  >"$work/configure.log" || { cat "$work/configure.log"; exit 1; }
 cmake --build "$work/build"
 
 # The sample finds the scenes and models of the repository, and what it writes goes away with it.

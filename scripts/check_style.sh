@@ -6,10 +6,11 @@ cd "$(dirname "$0")/.."
 # Also files that are not added yet, but nothing that git ignores; without git, everything.
 list_files() {
   if git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
-    git ls-files --cached --others --exclude-standard -- "$@" | while read -r file; do [[ -e $file ]] && echo "$file"; done
+    git ls-files --cached --others --exclude-standard -- "$@" |
+      while read -r file; do [[ ! -e $file ]] || echo "$file"; done
   else
     find src apps bench bindings tests scripts cmake -type f 2>/dev/null |
-      while read -r file; do for pattern in "$@"; do [[ $file == $pattern ]] && echo "$file"; done; done
+      while read -r file; do for pattern in "$@"; do [[ $file != $pattern ]] || echo "$file"; done; done
   fi
 }
 mapfile -t cpp < <(list_files '*.h' '*.cpp')
