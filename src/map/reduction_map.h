@@ -33,9 +33,9 @@ struct ReductionMap {
   std::string shader;
   std::map<std::string, std::vector<float>> parameters;  ///< all of them, by name
   std::uint64_t surface_fingerprint = 0;
-  int size = 0;             ///< asked for; the extent of level 0 is weights.extent(0)
-  float tolerance = 0;      ///< asked for: maximum residual, RMS over direction samples scaled by their own RMS
-  float residual = 0;       ///< reached: the largest residual over all sampled points
+  int size = 0;         ///< asked for; the extent of level 0 is weights.extent(0)
+  float tolerance = 0;  ///< asked for: maximum residual, RMS over direction samples scaled by their own RMS
+  float residual = 0;   ///< reached: the largest residual over all sampled points
   MapVerdict verdict = MapVerdict::kReduces;
   std::string verdict_reason;
   std::vector<BasisPlace> basis;

@@ -1,0 +1,167 @@
+#include "map/map_description.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "map/map_file.h"
+
+namespace redmap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr MapVerdict kVerdicts[] = {MapVerdict::kReduces, MapVerdict::kOneMaterial, MapVerdict::kDoesNotReduce};
+
+/// Reads members of a JSON object; errors name the file, the key, what was expected and what was found.
+class Reader {
+ public:
+  Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
+    if (!object_.is_object()) throw Error("{}: expected a JSON object, found {}", where_, object_.type_name());
+  }
+  const Json& get(const char* key, const char* expected) const {
+    const auto found = object_.find(key);
+    if (found == object_.end()) throw Error("{}: {}: expected {}, found nothing", where_, key, expected);
+    return *found;
+  }
+  [[noreturn]] void refuse(const char* key, const std::string& expected) const {
+    throw Error("{}: {}: expected {}, found {}", where_, key, expected, get(key, "").dump().substr(0, 60));
+  }
+  std::string text(const char* key) const {
+    const Json& value = get(key, "a text");
+    if (!value.is_string()) refuse(key, "a text");
+    return value.get<std::string>();
+  }
+  double number(const char* key, double lowest, double highest) const {
+    const Json& value = get(key, "a number");
+    const double number = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    if (!(number >= lowest && number <= highest)) refuse(key, fmt::format("a number from {} to {}", lowest, highest));
+    return number;
+  }
+  std::vector<float> numbers(const char* key, std::size_t fewest, std::size_t most) const {
+    const Json& value = get(key, "a list of numbers");
+    const std::string expected = fmt::format("{} to {} finite numbers", fewest, most);
+    if (!value.is_array() || value.size() < fewest || value.size() > most) refuse(key, expected);
+    std::vector<float> numbers;
+    for (const Json& n : value) {
+      if (!n.is_number() || !std::isfinite(n.get<float>())) refuse(key, expected);
+      numbers.push_back(n.get<float>());
+    }
+    return numbers;
+  }
+  Vec3 vector(const char* key) const {
+    const std::vector<float> v = numbers(key, 3, 3);
+    return {v[0], v[1], v[2]};
+  }
+  Vec3 unit_vector(const char* key) const {
+    const Vec3 v = vector(key);
+    if (!(std::abs(length(v) - 1) < 1e-3f)) refuse(key, "a unit vector");
+    return v;
+  }
+
+ private:
+  const Json& object_;
+  std::string where_;
+};
+
+Json list(Vec3 v) { return {v.x, v.y, v.z}; }
+
+std::vector<BasisPlace> parse_basis(const Reader& reader, const std::string& where) {
+  const Json& list = reader.get("basis", "a list of places");
+  if (!list.is_array() || list.empty() || list.size() > kMaxBasis)
+    reader.refuse("basis", fmt::format("a list of 1 to {} places", kMaxBasis));
+  std::vector<BasisPlace> basis;
+  for (const Json& entry : list) {
+    const Reader place(entry, fmt::format("{}: basis {}", where, basis.size()));
+    const std::vector<float> uv = place.numbers("uv", 2, 2);
+    basis.push_back(
+        {place.vector("position"), place.unit_vector("normal"), place.unit_vector("tangent"), {uv[0], uv[1]}});
+  }
+  return basis;
+}
+
+std::uint64_t parse_fingerprint(const Reader& reader) {
+  const std::string text = reader.text("surface");
+  if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
+    reader.refuse("surface", "16 hexadecimal digits");
+  return std::stoull(text, nullptr, 16);
+}
+
+MapVerdict parse_verdict(const Reader& reader) {
+  const std::string name = reader.text("verdict");
+  for (MapVerdict verdict : kVerdicts)
+    if (name == verdict_name(verdict)) return verdict;
+  reader.refuse("verdict", "reduces, one-material or does-not-reduce");
+}
+
+}  // namespace
+
+std::string_view verdict_name(MapVerdict verdict) {
+  switch (verdict) {
+    case MapVerdict::kReduces:
+      return "reduces";
+    case MapVerdict::kOneMaterial:
+      return "one-material";
+    case MapVerdict::kDoesNotReduce:
+      return "does-not-reduce";
+  }
+  return "unknown";
+}
+
+std::string describe_map(const ReductionMap& map) {
+  Json basis = Json::array();
+  for (const BasisPlace& p : map.basis)
+    basis.push_back({{"position", list(p.position)},
+                     {"normal", list(p.normal)},
+                     {"tangent", list(p.tangent)},
+                     {"uv", {p.uv.x, p.uv.y}}});
+  Json parameters = Json::object();
+  for (const auto& [name, value] : map.parameters) parameters[name] = value;
+  const Json description{{"format_version", kMapFormatVersion},
+                         {"shader", map.shader},
+                         {"parameters", parameters},
+                         {"surface", fmt::format("{:016x}", map.surface_fingerprint)},
+                         {"size", map.size},
+                         {"tolerance", map.tolerance},
+                         {"residual", map.residual},
+                         {"verdict", verdict_name(map.verdict)},
+                         {"verdict_reason", map.verdict_reason},
+                         {"wraps_u", map.weights.wraps_u()},
+                         {"scales", std::vector<float>(map.weights.scales().begin(), map.weights.scales().end())},
+                         {"basis", basis}};
+  return description.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+MapDescription parse_map_description(std::string_view json, const std::string& where) {
+  const Json root = Json::parse(json, nullptr, false);
+  if (root.is_discarded()) throw Error("{}: expected JSON in the attribute \"redmap\", found something else", where);
+  const Reader reader(root, where);
+  const double version = reader.number("format_version", 0, 1e9);
+  if (version != kMapFormatVersion)
+    throw Error("{}: format_version: expected {}, found {}", where, kMapFormatVersion, version);
+
+  constexpr double kAnything = std::numeric_limits<float>::max();
+  MapDescription description;
+  ReductionMap& map = description.map;
+  map.shader = reader.text("shader");
+  const Json& parameters = reader.get("parameters", "an object");
+  const Reader values(parameters, where + ": parameters");
+  for (const auto& [name, value] : parameters.items()) map.parameters[name] = values.numbers(name.c_str(), 1, 3);
+  map.surface_fingerprint = parse_fingerprint(reader);
+  map.size = static_cast<int>(reader.number("size", 1, 16384));
+  map.tolerance = static_cast<float>(reader.number("tolerance", 0, kAnything));
+  map.residual = static_cast<float>(reader.number("residual", 0, kAnything));
+  map.verdict = parse_verdict(reader);
+  map.verdict_reason = reader.text("verdict_reason");
+  map.basis = parse_basis(reader, where);
+  description.scales = reader.numbers("scales", map.basis.size(), map.basis.size());
+  for (float scale : description.scales)
+    if (scale < 0) reader.refuse("scales", "numbers from 0 up");
+  const Json& wraps = reader.get("wraps_u", "true or false");
+  if (!wraps.is_boolean()) reader.refuse("wraps_u", "true or false");
+  description.wraps_u = wraps.get<bool>();
+  return description;
+}
+
+}  // namespace redmap
