@@ -1,0 +1,178 @@
+// Maps on disk: what is read is what was written, and nothing else is accepted.
+#include "map/map_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/image.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "base/temporary_folder.h"
+#include "map/map_description.h"
+
+namespace redmap {
+namespace {
+
+ReductionMap random_map(Extent extent, int basis) {
+  BaseLevel base(extent, basis, true);
+  Random random(4);
+  for (float& v : base.values) v = 1.2f * random.next_float();
+  for (float& c : base.coverage) c = random.next_float() < 0.2f ? 0.0f : 1.0f;
+  ReductionMap map;
+  map.shader = "noise \"quoted\"";
+  map.parameters = {{"scale", {14.1f}}, {"paint", {0.1f, 0.2f, 1e-9f}}};
+  map.surface_fingerprint = 0xFEDCBA9876543210ull;
+  map.size = extent.height;
+  map.tolerance = 0.025f, map.residual = 0.0123f;
+  map.verdict = MapVerdict::kOneMaterial;
+  map.verdict_reason = "one is enough";
+  for (int i = 0; i < basis; ++i)
+    map.basis.push_back({{0.1f, -2, 3e7f}, normalized({1, 2, 3}), normalized({-2, 1, 0}), {0.3f, 0.7f}});
+  map.weights = WeightPyramid(base);
+  return map;
+}
+
+void expect_equal(const ReductionMap& a, const ReductionMap& b) {
+  EXPECT_EQ(describe_map(a), describe_map(b));
+  ASSERT_EQ(a.weights.levels(), b.weights.levels());
+  for (int level = 0; level < a.weights.levels(); ++level)
+    for (int y = 0; y < a.weights.extent(level).height; ++y) {
+      const auto row_a = a.weights.row(level, y), row_b = b.weights.row(level, y);
+      ASSERT_TRUE(std::equal(row_a.begin(), row_a.end(), row_b.begin(), row_b.end())) << "level " << level;
+    }
+  // The texel beyond the edge is not stored: it has to be made again.
+  const Footprint seam{{1, 0.5f}, {}, {}};
+  EXPECT_EQ(a.weights.lookup(seam).channel, b.weights.lookup(seam).channel);
+}
+
+/// `text` of the map at `path` replaced everywhere by another of the same length.
+void patch(const std::filesystem::path& path, const std::string& from, const std::string& to) {
+  ASSERT_EQ(from.size(), to.size());
+  std::string bytes = read_file(path);
+  std::size_t at = bytes.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  for (; at != std::string::npos; at = bytes.find(from, at)) bytes.replace(at, from.size(), to);
+  write_file(path, bytes);
+}
+
+void expect_refused(const std::filesystem::path& path, const std::string& part_of_message) {
+  try {
+    read_map(path);
+    ADD_FAILURE() << "accepted; expected: " << part_of_message;
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(part_of_message), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+  }
+}
+
+TEST(MapFile, ReadsBackBitForBit_WhatWasWritten) {
+  const TemporaryFolder folder;
+  for (Extent extent : {Extent{256, 128}, Extent{100, 75}, Extent{1, 1}})
+    for (int basis : {1, 3, 16}) {
+      const ReductionMap map = random_map(extent, basis);
+      write_map(folder / "map.exr", map);
+      expect_equal(map, read_map(folder / "map.exr"));
+    }
+}
+
+TEST(MapFile, BytesAreTheSame_ForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  std::string first;
+  for (std::size_t threads : {1, 2, 7}) {
+    const ThreadLimit limit(threads);
+    write_map(folder / "map.exr", random_map({128, 64}, 3));
+    const std::string bytes = read_file(folder / "map.exr");
+    if (first.empty()) first = bytes;
+    EXPECT_TRUE(bytes == first);
+  }
+}
+
+TEST(MapFile, TruncatedAnywhere_IsRefused) {
+  const TemporaryFolder folder;
+  const auto path = folder / "map.exr";
+  write_map(path, random_map({128, 64}, 2));
+  const std::string bytes = read_file(path);
+  Random random(8);
+  for (int i = 0; i < 60; ++i) {
+    write_file(path, std::string_view(bytes).substr(0, random.below(static_cast<std::uint32_t>(bytes.size()))));
+    EXPECT_THROW(read_map(path), Error);
+  }
+}
+
+TEST(MapFile, FlippedBytes_AreRefusedOrHarmless) {
+  const TemporaryFolder folder;
+  const auto path = folder / "map.exr";
+  write_map(path, random_map({64, 32}, 2));
+  const std::string bytes = read_file(path);
+  Random random(9);
+  int refused = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string hostile = bytes;
+    // Half of them in the headers, where there is most to break.
+    const std::uint32_t range = static_cast<std::uint32_t>(i % 2 ? bytes.size() : 2500);
+    hostile[random.below(range)] = static_cast<char>(random.next());
+    write_file(path, hostile);
+    try {
+      const ReductionMap map = read_map(path);
+      EXPECT_LE(map.weights.lookup({{0.5f, 0.5f}, {0.1f, 0}, {0, 0.1f}}).coverage, 1.0f);
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 50);
+}
+
+TEST(MapFile, ForeignFiles_AreNamedForWhatTheyAre) {
+  const TemporaryFolder folder;
+  const auto path = folder / "map.exr";
+  expect_refused(path, "no such file");
+  write_file(path, "not an OpenEXR file");
+  expect_refused(path, "OpenEXR cannot read");
+  write_file(path, "");
+  expect_refused(path, "OpenEXR cannot read");
+
+  write_map(path, random_map({16, 16}, 1));
+  patch(path, "\"format_version\":1,", "\"format_version\":7,");
+  expect_refused(path, "format_version: expected 1, found 7");
+}
+
+TEST(MapFile, HostileDescriptions_AreRefusedByKey) {
+  const TemporaryFolder folder;
+  const auto path = folder / "map.exr";
+  const auto patched = [&](const std::string& from, const std::string& to) {
+    write_map(path, random_map({16, 16}, 1));
+    patch(path, from, to);
+  };
+  patched("\"size\":16,", "\"size\":-1,");
+  expect_refused(path, "size: expected a number from 1");
+  patched("\"residual\":0", "\"residual\":n");
+  expect_refused(path, "expected JSON");
+  patched("\"shader\":\"", "\"shadow\":\"");
+  expect_refused(path, "shader: expected a text, found nothing");
+  patched("one-material", "nine-materia");
+  expect_refused(path, "verdict: expected reduces");
+  patched("\"wraps_u\":true", "\"wraps_u\":1234");
+  expect_refused(path, "wraps_u: expected true or false");
+  patched("\"uv\":[0.30000001192092896,0.699999988079071]", "\"uv\":[0.30000001192092896,\"699999988079071\"]");
+  expect_refused(path, "uv: expected 2 to 2 finite numbers");
+}
+
+TEST(MapFile, OtherPicturesAreNoMaps) {
+  const TemporaryFolder folder;
+  Image picture(8, 8, 3);
+  write_image(picture, folder / "picture.exr");
+  expect_refused(folder / "picture.exr", "expected 2 parts, found 1");
+}
+
+TEST(MapFile, DoesNotTouchTheOldFile_WhenItCannotWrite) {
+  EXPECT_THROW(write_map("/nonexistent-folder/map.exr", random_map({4, 4}, 1)), Error);
+}
+
+}  // namespace
+}  // namespace redmap
