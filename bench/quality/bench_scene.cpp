@@ -19,7 +19,26 @@ constexpr float kFieldDegrees = 40;  // the design's view: 512 pixels over 40 de
 constexpr float kPixelsPerField = 512;
 constexpr float kMargin = 1.15f;  // of the picture around the object's bounding sphere
 
-float bounding_radius(const Surface& surface) { return 0.5f * length(surface.upper() - surface.lower()); }
+/// Of the sphere about the centre of its box that holds the surface.
+float bounding_radius(const Surface& surface) {
+  std::vector<Vec3> places;
+  if (surface.mesh()) {
+    places = surface.mesh()->positions;
+  } else {
+    constexpr int kSteps = 32;
+    std::vector<HitCoordinates> where;
+    for (int j = 0; j <= kSteps; ++j)
+      for (int i = 0; i < kSteps; ++i)
+        where.push_back({0, {static_cast<float>(i) / kSteps, static_cast<float>(j) / kSteps}});
+    std::vector<SurfaceHit> hits(where.size());
+    surface.complete(where, hits);
+    for (const SurfaceHit& hit : hits) places.push_back(hit.position);
+  }
+  const Vec3 centre = (surface.lower() + surface.upper()) * 0.5f;
+  float radius = 0;
+  for (Vec3 place : places) radius = std::max(radius, length(place - centre));
+  return radius;
+}
 
 /// Camera on +z at `distance` from the origin, its picture cropped to the object, its pixels all the same angle.
 Camera camera_at(float distance, float radius) {
