@@ -1,9 +1,10 @@
 #include "shader/shader_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <sstream>
 
 #include "base/error.h"
@@ -12,18 +13,17 @@ namespace redmap {
 namespace {
 
 struct Line {
-  int number;
   std::string code, comment;
 };
 
-/// Splits every line into code and `//` comment; block comments become spaces.
+/// Splits every line into code and `//` comment; block comments vanish.
 std::vector<Line> read_lines(std::string_view text) {
   std::vector<Line> lines;
   std::istringstream stream{std::string(text)};
   bool in_block = false;
   for (std::string raw; std::getline(stream, raw);) {
     if (raw.ends_with('\r')) raw.pop_back();
-    Line line{static_cast<int>(lines.size()) + 1, "", ""};
+    Line line;
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const std::string_view rest = std::string_view(raw).substr(i);
       if (in_block) {
@@ -42,9 +42,43 @@ std::vector<Line> read_lines(std::string_view text) {
   return lines;
 }
 
-std::string trimmed(const std::string& s) {
+std::string trimmed(std::string_view s) {
   const auto first = s.find_first_not_of(" \t"), last = s.find_last_not_of(" \t");
-  return first == std::string::npos ? "" : s.substr(first, last - first + 1);
+  return std::string(first == std::string_view::npos ? "" : s.substr(first, last - first + 1));
+}
+
+/// A word (name or number) or a single other character.
+struct Token {
+  std::string text;
+  std::size_t line;  ///< counted from 0
+};
+
+std::vector<Token> read_tokens(const std::vector<Line>& lines) {
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  std::vector<Token> tokens;
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    const std::string& code = lines[l].code;
+    for (std::size_t i = 0; i < code.size();) {
+      std::size_t end = i + 1;
+      while (in_word(code[i]) && end < code.size() && in_word(code[end])) ++end;
+      if (!std::isspace(static_cast<unsigned char>(code[i]))) tokens.push_back({code.substr(i, end - i), l});
+      i = end;
+    }
+  }
+  return tokens;
+}
+
+/// Where `words` stand one after the other for the first time; tokens.size() if nowhere.
+std::size_t find(const std::vector<Token>& tokens, std::initializer_list<std::string_view> words) {
+  const auto same = [](const Token& token, std::string_view word) { return token.text == word; };
+  const auto found = std::search(tokens.begin(), tokens.end(), words.begin(), words.end(), same);
+  return static_cast<std::size_t>(found - tokens.begin());
+}
+
+/// Whether there is a function `TYPE NAME(FIRST ...`.
+bool defines(const std::vector<Token>& tokens, std::string_view type, std::string_view name, std::string_view first) {
+  return find(tokens, {type, name, "(", first}) < tokens.size() ||
+         find(tokens, {type, name, "(", "in", first}) < tokens.size();
 }
 
 std::size_t components_of(const std::string& type) {
@@ -52,9 +86,9 @@ std::size_t components_of(const std::string& type) {
 }
 
 /// All numbers in `text`; throws where something else stands between them.
-std::vector<float> read_numbers(const std::string& text, const std::string& where) {
+std::vector<float> read_numbers(std::string_view text, const std::string& where) {
   std::vector<float> numbers;
-  std::istringstream words{text};
+  std::istringstream words{std::string(text)};
   for (std::string word; words >> word;) {
     char* end = nullptr;
     const float value = std::strtof(word.c_str(), &end);
@@ -77,95 +111,77 @@ void check_default(const ParameterInfo& parameter, const std::string& where) {
                   parameter.minimum, parameter.maximum);
 }
 
-/// One member: `float scale;  // 14 [0.1, 1000] 1/unit: cells per object unit`.
-ParameterInfo read_parameter(const Line& line, const std::string& where) {
-  static const std::regex member(R"(\s*(\w+)\s+([A-Za-z_]\w*)\s*;\s*)");
-  static const std::regex comment(R"(\s*([^\[\]]*)\[([^,\]]*),([^,\]]*)\]\s*([^:]*):\s*(.*))");
-  std::smatch declared, described;
-  if (!std::regex_match(line.code, declared, member))
-    throw Error("{}: expected one parameter 'TYPE NAME;' on a line, found '{}'", where, trimmed(line.code));
-  ParameterInfo parameter;
-  parameter.type = declared[1], parameter.name = declared[2];
+/// Reads `14 [0.1, 1000] 1/unit: cells per object unit` into `parameter`, which has a name and a type.
+void read_comment(std::string_view comment, const std::string& where, ParameterInfo& parameter) {
+  const auto open = comment.find('['), comma = comment.find(',', open), close = comment.find(']', comma);
+  const auto colon = comment.find(':', close);
+  if (open == std::string_view::npos || comma == open || close == comma || colon == std::string_view::npos)
+    throw Error("{}: parameter '{}' needs a comment '// DEFAULT [MINIMUM, MAXIMUM] UNIT: MEANING', found '{}'", where,
+                parameter.name, trimmed(comment));
+  parameter.default_value = read_numbers(comment.substr(0, open), where);
+  const auto minimum = read_numbers(comment.substr(open + 1, comma - open - 1), where);
+  const auto maximum = read_numbers(comment.substr(comma + 1, close - comma - 1), where);
+  if (minimum.size() != 1 || maximum.size() != 1)
+    throw Error("{}: parameter '{}' needs a range [MINIMUM, MAXIMUM]", where, parameter.name);
+  parameter.minimum = minimum[0], parameter.maximum = maximum[0];
+  parameter.unit = trimmed(comment.substr(close + 1, colon - close - 1));
+  parameter.meaning = trimmed(comment.substr(colon + 1));
+  check_default(parameter, where);
+}
+
+/// The member that starts at token `at`: `TYPE NAME;`, alone on its line, with its comment.
+ParameterInfo read_parameter(const std::vector<Line>& lines, const std::vector<Token>& tokens, std::size_t at,
+                             std::string_view file_name) {
+  const std::size_t line = tokens[at].line;
+  const std::string where = fmt::format("{}:{}", file_name, line + 1);
+  const auto on_line = std::ranges::count(tokens, line, &Token::line);
+  if (on_line != 3 || tokens[at + 2].text != ";")
+    throw Error("{}: expected one parameter 'TYPE NAME;' on a line, found '{}'", where, trimmed(lines[line].code));
+  ParameterInfo parameter{tokens[at + 1].text, tokens[at].text, {}, 0, 0, "", ""};
   if (components_of(parameter.type) == 0)
     throw Error("{}: parameter '{}' has type '{}', expected float, int, vec2 or vec3", where, parameter.name,
                 parameter.type);
-  if (!std::regex_match(line.comment, described, comment))
-    throw Error("{}: parameter '{}' needs a comment '// DEFAULT [MINIMUM, MAXIMUM] UNIT: MEANING', found '{}'", where,
-                parameter.name, trimmed(line.comment));
-  parameter.default_value = read_numbers(described[1], where);
-  const auto range = read_numbers(described[2].str() + " " + described[3].str(), where);
-  if (range.size() != 2) throw Error("{}: parameter '{}' needs a range of two numbers", where, parameter.name);
-  parameter.minimum = range[0], parameter.maximum = range[1];
-  parameter.unit = trimmed(described[4]), parameter.meaning = trimmed(described[5]);
-  check_default(parameter, where);
+  read_comment(lines[line].comment, where, parameter);
   return parameter;
 }
 
-std::vector<ParameterInfo> read_parameters(const std::vector<Line>& lines, std::string_view file_name) {
-  static const std::regex opening(R"(\s*struct\s+Parameters\s*\{\s*)"), closing(R"(\s*\}\s*;\s*)");
-  auto line = std::ranges::find_if(lines, [&](const Line& l) { return std::regex_match(l.code, opening); });
-  if (line == lines.end()) throw Error("{}:1: expected a line 'struct Parameters {{', found none", file_name);
-  const int opened_at = line->number;
+std::vector<ParameterInfo> read_parameters(const std::vector<Line>& lines, const std::vector<Token>& tokens,
+                                           std::string_view file_name) {
+  const std::size_t start = find(tokens, {"struct", "Parameters", "{"});
+  if (start == tokens.size()) throw Error("{}:1: expected 'struct Parameters {{', found none", file_name);
   std::vector<ParameterInfo> parameters;
-  for (++line; line != lines.end(); ++line) {
-    if (std::regex_match(line->code, closing)) return parameters;
-    if (trimmed(line->code).empty()) continue;
-    const std::string where = fmt::format("{}:{}", file_name, line->number);
-    parameters.push_back(read_parameter(*line, where));
-    const auto same_name = [&](const ParameterInfo& other) { return other.name == parameters.back().name; };
-    if (std::ranges::count_if(parameters, same_name) > 1)
-      throw Error("{}: parameter '{}' is declared twice", where, parameters.back().name);
+  for (std::size_t at = start + 3; at < tokens.size(); at += 3) {
+    if (tokens[at].text == "}") return parameters;
+    const ParameterInfo parameter = read_parameter(lines, tokens, at, file_name);
+    if (std::ranges::find(parameters, parameter.name, &ParameterInfo::name) != parameters.end())
+      throw Error("{}:{}: parameter '{}' is declared twice", file_name, tokens[at].line + 1, parameter.name);
+    parameters.push_back(parameter);
   }
-  throw Error("{}:{}: 'struct Parameters' is not closed by a line '}};'", file_name, opened_at);
+  throw Error("{}:{}: 'struct Parameters' is not closed by '}}'", file_name, tokens[start].line + 1);
 }
 
-/// Whether the code defines `TYPE NAME(FIRST_PARAMETER_TYPE ...`.
-bool defines(const std::string& code, const std::string& type, const std::string& name, const std::string& first) {
-  return std::regex_search(code, std::regex("\\b" + type + "\\s+" + name + "\\s*\\(\\s*(in\\s+)?" + first + "\\b"));
+/// The name in a line `#include "NAME"`, else empty.
+std::string included_name(std::string_view line) {
+  std::string rest = trimmed(line.substr(0, line.find('\r')));
+  for (const std::string_view word : {"#", "include"}) {
+    if (!rest.starts_with(word)) return "";
+    rest = trimmed(std::string_view(rest).substr(word.size()));
+  }
+  return rest.size() > 2 && rest.front() == '"' && rest.back() == '"' ? rest.substr(1, rest.size() - 2) : "";
 }
 
-}  // namespace
+using ReadInclude = std::function<std::string(std::string_view)>;
 
-ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name) {
-  const std::vector<Line> lines = read_lines(text);
-  std::string code;
-  for (const Line& line : lines) code += line.code + "\n";
-
-  ShaderInfo info;
-  info.name = std::filesystem::path(file_name).stem().string();
-  const auto summary = std::ranges::find_if(lines, [](const Line& l) { return !trimmed(l.comment).empty(); });
-  if (summary != lines.end()) info.summary = trimmed(summary->comment);
-  info.parameters = read_parameters(lines, file_name);
-
-  const bool split = defines(code, "Pattern", "pattern", "Surface");
-  info.black_box = defines(code, "vec3", "radiance", "Surface");
-  if (split == info.black_box)
-    throw Error(
-        "{}:1: expected either 'Pattern pattern(Surface, Parameters)' or 'vec3 radiance(Surface, ...)', found {}",
-        file_name, split ? "both" : "neither");
-  if (split && !defines(code, "vec3", "radiance", "Pattern"))
-    throw Error("{}:1: expected 'vec3 radiance(Pattern, vec3, vec3)' beside pattern(), found none", file_name);
-  info.transmits = defines(code, "vec3", "transmittance", "Pattern");
-  info.emits = defines(code, "vec3", "emission", "Pattern");
-  info.has_material = defines(code, "Material", "material", "Pattern");
-  info.varies_in_time = std::regex_search(code, std::regex(R"(\.\s*time\b)"));
-  return info;
-}
-
-namespace {
-
-std::string resolve_includes(std::string_view text, const std::function<std::string(std::string_view)>& read,
-                             std::vector<std::string>& open) {
-  static const std::regex include(R"(\s*#\s*include\s+"([^"]+)\"\s*)");
+/// `open` are the includes that lead here.
+std::string resolve_includes(std::string_view text, const ReadInclude& read, std::vector<std::string>& open) {
   std::string resolved;
   std::istringstream stream{std::string(text)};
   for (std::string line; std::getline(stream, line);) {
-    std::smatch match;
-    if (!std::regex_match(line, match, include)) {
+    const std::string name = included_name(line);
+    if (name.empty()) {
       resolved += line + "\n";
       continue;
     }
-    const std::string name = match[1];
     if (std::ranges::count(open, name) > 0) throw Error("shader include '{}' leads back to itself", name);
     open.push_back(name);
     resolved += resolve_includes(read(name), read, open);
@@ -176,7 +192,31 @@ std::string resolve_includes(std::string_view text, const std::function<std::str
 
 }  // namespace
 
-std::string resolve_includes(std::string_view text, const std::function<std::string(std::string_view)>& read) {
+ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name) {
+  const std::vector<Line> lines = read_lines(text);
+  const std::vector<Token> tokens = read_tokens(lines);
+
+  ShaderInfo info;
+  info.name = std::filesystem::path(file_name).stem().string();
+  const auto summary = std::ranges::find_if(lines, [](const Line& l) { return !trimmed(l.comment).empty(); });
+  if (summary != lines.end()) info.summary = trimmed(summary->comment);
+  info.parameters = read_parameters(lines, tokens, file_name);
+
+  const bool split = defines(tokens, "Pattern", "pattern", "Surface");
+  info.black_box = defines(tokens, "vec3", "radiance", "Surface");
+  if (split == info.black_box)
+    throw Error("{}:1: expected 'Pattern pattern(Surface, Parameters)' or 'vec3 radiance(Surface, ...)', found {}",
+                file_name, split ? "both" : "neither");
+  if (split && !defines(tokens, "vec3", "radiance", "Pattern"))
+    throw Error("{}:1: expected 'vec3 radiance(Pattern, vec3, vec3)' beside pattern(), found none", file_name);
+  info.transmits = defines(tokens, "vec3", "transmittance", "Pattern");
+  info.emits = defines(tokens, "vec3", "emission", "Pattern");
+  info.has_material = defines(tokens, "Material", "material", "Pattern");
+  info.varies_in_time = find(tokens, {".", "time"}) < tokens.size();
+  return info;
+}
+
+std::string resolve_includes(std::string_view text, const ReadInclude& read) {
   std::vector<std::string> open;
   return resolve_includes(text, read, open);
 }

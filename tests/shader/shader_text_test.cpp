@@ -98,6 +98,14 @@ TEST(ShaderText, ErrorsNameFileLineAndWhatWasExpected) {
   EXPECT_THAT(error_of("// Only\nstruct Parameters {\n  float a;  // 1 [0, 1]: a\n"),
               testing::AllOf(HasSubstr("own.glsl:2"), HasSubstr("not closed")));
   EXPECT_THAT(error_of(""), HasSubstr("struct Parameters"));
+  EXPECT_THAT(error_of("struct Parameters { float"), HasSubstr("own.glsl:1"));
+}
+
+TEST(ShaderText, SurvivesEveryTruncationAndVeryLongLines) {
+  const std::string text = kText;
+  for (std::size_t length = 0; length < text.size(); ++length) error_of(text.substr(0, length));
+  error_of(text + std::string(1000000, ' ') + "// " + std::string(1000000, '['));
+  EXPECT_THAT(error_of(replaced(kText, "14 [", std::string(1000000, '7') + " [")), HasSubstr("own.glsl:3"));
 }
 
 TEST(ResolveIncludes, ReplacesLinesAndStopsAtCircles) {
