@@ -31,6 +31,13 @@ std::string quoted_list(std::span<const std::string> names) {
   return list;
 }
 
+/// Names and values of the file may hold line breaks; complaints must not.
+[[noreturn]] void refuse(std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  throw Error(message);
+}
+
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& source) {
@@ -38,7 +45,7 @@ toml::table parse_toml(std::string_view text, const std::string& source) {
     return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
-    throw Error("{}:{}:{}: this is no TOML: {}", source, begin.line, begin.column, error.description());
+    refuse(fmt::format("{}:{}:{}: this is no TOML: {}", source, begin.line, begin.column, error.description()));
   }
 }
 
@@ -59,8 +66,8 @@ TableReader::TableReader(const toml::table& table, std::string path, std::initia
   const std::vector<std::string> names(known.begin(), known.end());
   for (const auto& [key, node] : table) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    throw Error("{}: {}: unknown key{}, expected one of {}", location(node), full_key(key.str()),
-                suggestion(key.str(), names), quoted_list(names));
+    refuse(fmt::format("{}: {}: unknown key{}, expected one of {}", location(node), full_key(key.str()),
+                       suggestion(key.str(), names), quoted_list(names)));
   }
 }
 
@@ -76,7 +83,7 @@ std::string TableReader::full_key(std::string_view key) const {
 
 void TableReader::complain(std::string_view key, std::string_view problem) const {
   const toml::node* node = table_.get(key);
-  throw Error("{}: {}: {}", location(node ? *node : table_), full_key(key), problem);
+  refuse(fmt::format("{}: {}: {}", location(node ? *node : table_), full_key(key), problem));
 }
 
 void TableReader::fail(std::string_view key, std::string_view expected) const {

@@ -1,6 +1,7 @@
 // Broken scenes: each is refused in one line that says where, what was expected and what was found.
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "scene/scene_file.h"
 #include "scene/scene_test_support.h"
 #include "shader/shader.h"
@@ -29,6 +30,8 @@ TEST(BrokenScene, Text) {
   expect_refused({"camera = 3", "a.toml:1:10: camera: expected a table, found 3"});
   expect_refused({"[camera", "a.toml:1:8: this is no TOML"});
   expect_refused({"[camera]\nfov=1\nfov=2\n", "this is no TOML"});
+  expect_refused({std::string(kCamera) + "\"a\\nb\"=3", "a b: unknown key"});
+  expect_refused({"[camera]\nposition=\"a\\nb\"", "found \"a b\""});
   expect_refused({std::string("\xff\xfe\0", 3), "this is no TOML"});
   expect_refused({std::string(kCamera) + "[objects.a]", "objects: unknown key (did you mean \"object\"?)"});
 }
@@ -162,6 +165,33 @@ TEST(BrokenScene, Overrides) {
            {"ball.colour=3", "object.ball.parameters.colour: expected a parameter of shader noise"},
            {"camera..fov=3", "-D camera..fov=3:1:"}})
     expect_refused({scene, complaint}, {text});
+}
+
+/// Whatever the bytes, a scene loads or is refused by an Error of one line: nothing else is thrown, nothing crashes.
+void expect_scene_or_error(const TemporaryFolder& folder, const std::string& text) {
+  const auto path = write(folder, "a.toml", text);
+  try {
+    SceneFile::load(path);
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
+  }
+}
+
+TEST(BrokenScene, TruncatedAndScrambledFiles_LoadOrAreRefused) {
+  const TemporaryFolder folder;
+  const std::string scene = std::string(kCamera) + "[light.a]\ntype='point'\nposition=[1,2,3]\nintensity=5\n" + kBall +
+                            "map_size=64\n[animation]\nframes=3\n[[animation.key]]\ntarget='camera.fov'\nframe=2\n"
+                            "value=30\n";
+  for (std::size_t size = 0; size <= scene.size(); size += 3) expect_scene_or_error(folder, scene.substr(0, size));
+  Random random(1);
+  for (int round = 0; round < 300; ++round) {
+    std::string scrambled = scene;
+    for (int k = 0; k < 3; ++k)
+      scrambled[random.below(static_cast<std::uint32_t>(scene.size()))] =
+          round % 2 ? scene[random.below(static_cast<std::uint32_t>(scene.size()))]
+                    : static_cast<char>(random.below(256));
+    expect_scene_or_error(folder, scrambled);
+  }
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/temporary_folder.h"
 
@@ -15,7 +15,7 @@ namespace redmap {
 
 /// Writes `text` into the folder and returns the path.
 inline std::filesystem::path write(const TemporaryFolder& folder, const std::string& name, std::string_view text) {
-  write_file(folder / name, text);
+  std::ofstream(folder / name, std::ios::binary) << text;
   return folder / name;
 }
 
