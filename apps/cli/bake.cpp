@@ -1,0 +1,121 @@
+// `redmap bake`: the reduction maps of a scene's objects.
+#include "bake/bake.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "commands.h"
+#include "common.h"
+#include "map/map_file.h"
+#include "map_json.h"
+#include "scene/scene_file.h"
+
+namespace redmap::cli {
+
+namespace {
+
+struct Options {
+  std::string scene, folder;
+  std::vector<std::string> objects, overrides;
+  int size = 0;  ///< 0: as the scene says
+  BakeOptions bake;
+  CommonOptions common;
+};
+
+/// Where a map goes: as the scene says, or that name in the folder asked for.
+std::filesystem::path map_path(const Options& options, const Object& object) {
+  return options.folder.empty() ? object.map_path : options.folder / object.map_path.filename();
+}
+
+/// The objects asked for; all of them if none was. Throws Error on a name that is not in the scene.
+std::vector<Object> objects_to_bake(const Options& options, const SceneFile& file) {
+  if (options.objects.empty()) return file.at(1).objects;
+  std::vector<Object> objects;
+  for (const std::string& name : options.objects) objects.push_back(file.object(name));
+  return objects;
+}
+
+nlohmann::json bake_object(const Options& options, const Object& object) {
+  BakeOptions bake_options = options.bake;
+  bake_options.size = options.size > 0 ? options.size : object.map_size;
+  const std::filesystem::path path = map_path(options, object);
+  BakeReport report;
+  ReductionMap map;
+  {
+    Progress progress("bake " + object.name);
+    bake_options.progress = [&](float fraction, std::string_view) {
+      progress.update(fraction);
+      return !interrupted();
+    };
+    map = bake(*object.surface, *object.shader, bake_options, &report);
+  }
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+  write_map(path, map);
+  nlohmann::json json = bake_json(map, report);
+  json["object"] = object.name;
+  json["map"] = path.string();
+  write_json(std::filesystem::path(path).replace_extension(".json"), json);
+
+  fmt::print(
+      "{}: {} on {}x{} texels: {} basis reflectance{}, residual {:.4f} of {:g}, {}{}{}, {:.2f} s, {:.1f} MB -> {}\n",
+      object.name, map.shader, map.weights.extent(0).width, map.weights.extent(0).height, map.basis.size(),
+      map.basis.size() == 1 ? "" : "s", map.residual, map.tolerance, verdict_name(map.verdict),
+      map.verdict_reason.empty() ? "" : ": ", map.verdict_reason, report.seconds,
+      static_cast<double>(map.weights.bytes()) * 1e-6, path.string());
+  return json;
+}
+
+void bake_scene(const Options& options) {
+  const ThreadLimit limit(static_cast<std::size_t>(options.common.threads));
+  const SceneFile file = SceneFile::load(options.scene, options.overrides);
+  nlohmann::json maps = nlohmann::json::array();
+  std::set<std::filesystem::path> written;
+  for (const Object& object : objects_to_bake(options, file)) {
+    // Objects may share a map; the scene has checked that they share surface and shader too.
+    if (!written.insert(map_path(options, object)).second) {
+      fmt::print("{}: shares {}\n", object.name, map_path(options, object).string());
+      continue;
+    }
+    maps.push_back(bake_object(options, object));
+    stop_if_interrupted();
+  }
+  write_json(options.common.json, {{"maps", maps}});
+}
+
+}  // namespace
+
+void add_bake_command(CLI::App& app) {
+  CLI::App* sub = app.add_subcommand("bake", "Make the reduction maps of a scene");
+  sub->footer(
+      "Examples:\n"
+      "  redmap bake scene.toml                        every object's map, where the scene says\n"
+      "  redmap bake scene.toml --object bunny --size 2048 -o maps");
+  auto options = std::make_shared<Options>();
+  BakeOptions& bake_options = options->bake;
+  sub->add_option("scene", options->scene, "the scene's TOML file")->required();
+  sub->add_option("--object", options->objects, "only this object (may be given several times)");
+  sub->add_option("--size", options->size, "texels across a map; default: as the scene says")
+      ->check(CLI::Range(1, 16384));
+  sub->add_option("--tolerance", bake_options.tolerance, "largest residual, in units of a sample's RMS")
+      ->capture_default_str();
+  sub->add_option("--max-basis", bake_options.max_basis, "most basis reflectances")->capture_default_str();
+  sub->add_option("--sub-samples", bake_options.sub_samples, "n x n points a texel where neighbours differ")
+      ->capture_default_str();
+  const std::map<std::string, BasisSelection> selections{{"greedy", BasisSelection::kGreedy},
+                                                         {"paper", BasisSelection::kPaper}};
+  sub->add_option("--selection", bake_options.selection, "who chooses the basis: greedy, or the paper's blocks")
+      ->transform(CLI::CheckedTransformer(selections).description("{greedy,paper}"))
+      ->default_str("greedy");
+  sub->add_option("-D", options->overrides, "object.parameter=value");
+  sub->add_option("-o,--output", options->folder, "folder for the maps");
+  add_common_options(*sub, options->common);
+  sub->callback([options] { bake_scene(*options); });
+}
+
+}  // namespace redmap::cli
