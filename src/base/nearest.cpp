@@ -1,3 +1,4 @@
+// Edit distance by rows (Wagner and Fischer 1974).
 #include "base/nearest.h"
 
 #include <algorithm>

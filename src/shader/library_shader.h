@@ -154,11 +154,13 @@ class LibraryPatterns final : public BoundPatterns {
   std::size_t size() const override { return size_; }
 
   void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
+    assert(pairs.size() == size_);
     out.resize(size_);
     evaluate(blocks_.data(), 1, DirectionLanes(pairs), {out[0], out[1], out[2]}, blocks_.size());
   }
 
   void radiance_one(std::size_t pattern, const DirectionPairs& pairs, Planes<3>& out) const override {
+    assert(pattern < size_);
     out.resize(pairs.size());
     const Bound bound = broadcast_lane(blocks_[pattern / kLanes], pattern % kLanes);
     evaluate(&bound, 0, DirectionLanes(pairs), {out[0], out[1], out[2]}, padded(pairs.size()) / kLanes);

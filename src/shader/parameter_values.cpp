@@ -1,3 +1,4 @@
+// Defaults and overrides, checked against the declarations.
 #include "shader/parameter_values.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reading declarations by tokens: no compiler, no grammar, one line number for every complaint.
 #include "shader/shader_text.h"
 
 #include <algorithm>
