@@ -55,13 +55,14 @@ std::string usage_complaint(const CLI::App& app, const CLI::ParseError& error) {
 
 int run(int argc, char** argv) {
   CLI::App app{"redmap: mip-maps for procedural shaders (Van Horn and Turk 2008)", "redmap"};
+  app.require_subcommand(1);
+  add_commands(app);
+  // After the commands: they would inherit it.
   app.footer(
       "From a scene to a picture that does not alias:\n"
       "  redmap bake scenes/sphere_noise.toml\n"
       "  redmap render scenes/sphere_noise.toml -o sphere.png\n"
       "Every command explains itself with --help.");
-  app.require_subcommand(1);
-  add_commands(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

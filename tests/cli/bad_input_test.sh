@@ -34,7 +34,8 @@ accepts() {
 }
 
 accepts "redmap bake" --help
-for command in bake render compare inspect bench list mesh; do accepts "--threads" $command --help; done
+for command in bake render compare inspect list mesh; do accepts "--threads" $command --help; done
+accepts "quality" bench --help
 accepts "noise" list
 accepts "checker" list shaders
 accepts "[0.1, 1000]" list noise
