@@ -3,14 +3,14 @@
 #include "include/phong.glsl"
 
 struct Parameters {
-  float scale;         // 13 [0.1, 1000] 1/unit: islands per object unit
-  float threshold;     // 0 [-1, 1]: height of the noise above which the islands stand out
-  vec3 chrome_diffuse;   // 0.02 0.02 0.02 [0, 1]: diffuse colour of the chrome
-  vec3 chrome_specular;  // 0.6 0.6 0.6 [0, 1]: specular colour of the chrome
-  float chrome_exponent; // 300 [1, 1000]: Phong exponent of the chrome
-  vec3 rubber_diffuse;   // 0.1 0.1 0.1 [0, 1]: diffuse colour of the rubber
-  vec3 rubber_specular;  // 0.35 0.35 0.35 [0, 1]: specular colour of the rubber
-  float rubber_exponent; // 5 [1, 1000]: Phong exponent of the rubber
+  float scale;            // 13 [0.1, 1000] 1/unit: islands per object unit
+  float threshold;        // 0 [-1, 1]: height of the noise above which the islands stand out
+  vec3 chrome_diffuse;    // 0.02 0.02 0.02 [0, 1]: diffuse colour of the chrome
+  vec3 chrome_specular;   // 0.6 0.6 0.6 [0, 1]: specular colour of the chrome
+  float chrome_exponent;  // 300 [1, 1000]: Phong exponent of the chrome
+  vec3 rubber_diffuse;    // 0.1 0.1 0.1 [0, 1]: diffuse colour of the rubber
+  vec3 rubber_specular;   // 0.35 0.35 0.35 [0, 1]: specular colour of the rubber
+  float rubber_exponent;  // 5 [1, 1000]: Phong exponent of the rubber
 };
 
 struct Pattern {

@@ -4,11 +4,11 @@
 #include "include/phong.glsl"
 
 struct Parameters {
-  float scale;           // 14 [0.1, 1000] 1/unit: cells per object unit
-  float threshold;       // 0 [-1, 1]: where the noise turns blue
-  vec3 blue;             // 0.08 0.15 0.65 [0, 1]: diffuse colour of the islands
-  vec3 yellow;           // 0.8 0.65 0.08 [0, 1]: diffuse colour of the paint between them
-  float blue_exponent;   // 25 [1, 1000]: Phong exponent of the islands
+  float scale;             // 14 [0.1, 1000] 1/unit: cells per object unit
+  float threshold;         // 0 [-1, 1]: where the noise turns blue
+  vec3 blue;               // 0.08 0.15 0.65 [0, 1]: diffuse colour of the islands
+  vec3 yellow;             // 0.8 0.65 0.08 [0, 1]: diffuse colour of the paint between them
+  float blue_exponent;     // 25 [1, 1000]: Phong exponent of the islands
   float yellow_roughness;  // 0.12 [0.02, 1]: GGX roughness of the paint
 };
 

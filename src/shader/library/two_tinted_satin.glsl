@@ -3,14 +3,14 @@
 #include "include/phong.glsl"
 
 struct Parameters {
-  float scale;         // 13 [0.1, 1000] 1/unit: islands per object unit
-  float threshold;     // 0 [-1, 1]: height of the noise above which the islands stand out
-  vec3 blue_diffuse;   // 0.02 0.02 0.02 [0, 1]: diffuse colour of the blue threads
-  vec3 blue_specular;  // 0.1 0.2 0.8 [0, 1]: specular colour of the blue threads
-  float blue_exponent; // 6 [1, 1000]: Phong exponent of the blue threads
-  vec3 orange_diffuse;   // 0.05 0.05 0.05 [0, 1]: diffuse colour of the orange threads
-  vec3 orange_specular;  // 0.8 0.3 0.05 [0, 1]: specular colour of the orange threads
-  float orange_exponent; // 60 [1, 1000]: Phong exponent of the orange threads
+  float scale;            // 13 [0.1, 1000] 1/unit: islands per object unit
+  float threshold;        // 0 [-1, 1]: height of the noise above which the islands stand out
+  vec3 blue_diffuse;      // 0.02 0.02 0.02 [0, 1]: diffuse colour of the blue threads
+  vec3 blue_specular;     // 0.1 0.2 0.8 [0, 1]: specular colour of the blue threads
+  float blue_exponent;    // 6 [1, 1000]: Phong exponent of the blue threads
+  vec3 orange_diffuse;    // 0.05 0.05 0.05 [0, 1]: diffuse colour of the orange threads
+  vec3 orange_specular;   // 0.8 0.3 0.05 [0, 1]: specular colour of the orange threads
+  float orange_exponent;  // 60 [1, 1000]: Phong exponent of the orange threads
 };
 
 struct Pattern {

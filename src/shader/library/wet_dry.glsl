@@ -5,12 +5,12 @@
 struct Parameters {
   float scale;         // 13 [0.1, 1000] 1/unit: islands per object unit
   float threshold;     // 0 [-1, 1]: height of the noise above which the islands stand out
-  vec3 wet_diffuse;   // 0.1 0.08 0.06 [0, 1]: diffuse colour of the wet ground
-  vec3 wet_specular;  // 0.25 0.25 0.25 [0, 1]: specular colour of the wet ground
-  float wet_exponent; // 400 [1, 1000]: Phong exponent of the wet ground
-  vec3 dry_diffuse;   // 0.4 0.33 0.25 [0, 1]: diffuse colour of the dry ground
-  vec3 dry_specular;  // 0.08 0.08 0.08 [0, 1]: specular colour of the dry ground
-  float dry_exponent; // 4 [1, 1000]: Phong exponent of the dry ground
+  vec3 wet_diffuse;    // 0.1 0.08 0.06 [0, 1]: diffuse colour of the wet ground
+  vec3 wet_specular;   // 0.25 0.25 0.25 [0, 1]: specular colour of the wet ground
+  float wet_exponent;  // 400 [1, 1000]: Phong exponent of the wet ground
+  vec3 dry_diffuse;    // 0.4 0.33 0.25 [0, 1]: diffuse colour of the dry ground
+  vec3 dry_specular;   // 0.08 0.08 0.08 [0, 1]: specular colour of the dry ground
+  float dry_exponent;  // 4 [1, 1000]: Phong exponent of the dry ground
 };
 
 struct Pattern {

@@ -2,8 +2,8 @@
 #ifndef REDMAP_NOISE_GLSL
 #define REDMAP_NOISE_GLSL
 
-// Three odd multipliers (spatial hashing, Teschner et al. 2003, with better mixed bits), then the `lowbias32` finaliser
-// of Wellons (2018) with its last multiplication left out.
+// Mixes the three terms below: two rounds of shift and multiplication, of the kind that Wellons (2018) searched for low
+// bias.
 uint hash_lattice(uint x, uint y, uint z) {
   uint h = x ^ y ^ z;
   h ^= h >> 15u;
@@ -14,7 +14,8 @@ uint hash_lattice(uint x, uint y, uint z) {
   return h;
 }
 
-// The three hash terms of a lattice point; the next point along an axis adds the axis's multiplier.
+// A lattice point's terms are its coordinates times these (Ericson, Real-Time Collision Detection, 2005); the
+// next point along an axis adds the axis's multiplier.
 const uint kHashX = 0x8da6b343u;
 const uint kHashY = 0xd8163841u;
 const uint kHashZ = 0xcb1ab31fu;

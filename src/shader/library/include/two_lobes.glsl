@@ -27,8 +27,8 @@ vec3 coating_radiance(Coating m, vec3 to_light, vec3 to_viewer) {
 Material coating_material(Coating m) {
   float dull = dot(m.dull, vec3(1.0));
   float gloss = dot(m.gloss, vec3(1.0));
-  float variance = (dull * (2.0 / (kDullExponent + 2.0)) + gloss * (2.0 / (kGlossExponent + 2.0)) + 1e-6) /
-                   (dull + gloss + 1e-5);
+  float variance =
+      (dull * (2.0 / (kDullExponent + 2.0)) + gloss * (2.0 / (kGlossExponent + 2.0)) + 1e-6) / (dull + gloss + 1e-5);
   return Material(m.diffuse, m.dull + m.gloss, 2.0 / variance - 2.0, vec3(0.0));
 }
 
