@@ -1,12 +1,14 @@
-// An atlas in four steps: grow charts, flatten them, split what is not sound, pack.
+// An atlas in five steps: grow charts, flatten them, split what is not sound, merge crumbs, pack.
 #include "surface/atlas.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "surface/chart_growing.h"
+#include "surface/chart_merging.h"
 #include "surface/chart_packing.h"
 #include "surface/face_graph.h"
 #include "surface/flat_chart.h"
@@ -19,6 +21,11 @@ namespace {
 // flat places; after 15 rounds charts hardly move.
 constexpr double kCompactness = 0.3, kSplitCompactness = 1.0;
 constexpr int kRounds = 15, kSplitRounds = 8;
+
+// Of the area that a chart was to have: below the first it is merged where it can be, up to the second, as long as the
+// stretch stays below the third. On the 20k dragon this leaves 100 of 376 charts at an L2 stretch of 1.036; up to the
+// usual limit of 1.25 it would leave 87 at 1.052.
+constexpr double kSmall = 0.25, kLarge = 2, kMergedL2Stretch = 1.1;
 
 void check(const TriangleMesh& mesh, const FaceGraph& graph, const AtlasOptions& options) {
   if (mesh.triangles.empty()) throw Error("atlas: expected a mesh with triangles, found none");
@@ -103,8 +110,10 @@ AtlasReport unwrap(TriangleMesh& mesh, const AtlasOptions& options) {
   const FaceGraph graph = make_face_graph(mesh);
   check(mesh, graph, options);
   const std::vector<int> labels = grow_charts(graph, options.charts, kCompactness, kRounds);
-  const std::vector<FlatChart> charts =
-      flatten_all(mesh, graph, connected_parts(graph, labels), options.max_l2_stretch);
+  std::vector<FlatChart> charts = flatten_all(mesh, graph, connected_parts(graph, labels), options.max_l2_stretch);
+  const double chart_area = std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0) / options.charts;
+  merge_small_charts(mesh, graph, kSmall * chart_area, kLarge * chart_area,
+                     std::min(kMergedL2Stretch, options.max_l2_stretch), charts);
   const std::optional<Packing> packing =
       pack_charts(charts, options.resolution, options.cell_texels, options.gutter_texels);
   if (!packing)

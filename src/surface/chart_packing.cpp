@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -25,6 +26,13 @@ class Bitmap {
   int width() const { return width_; }
   int height() const { return height_; }
   void set(int x, int y) { row(y)[x / 64] |= std::uint64_t{1} << (x % 64); }
+  bool at(int x, int y) const { return row(y)[x / 64] >> (x % 64) & 1; }
+
+  /// 64 bits of row y, from x on.
+  std::uint64_t bits_from(int x, int y) const {
+    const std::uint64_t* bits = row(y) + x / 64;
+    return x % 64 == 0 ? bits[0] : bits[0] >> (x % 64) | bits[1] << (64 - x % 64);
+  }
 
   bool collides(const Bitmap& shape, int x, int y) const {
     for (int line = 0; line < shape.height_; ++line)
@@ -70,6 +78,41 @@ Vector2d turned(const Vector2d& p, const Vector2d& size, int quarter_turns) {
     default:
       return p;
   }
+}
+
+struct Cell {
+  int x, y;
+};
+
+/// Some cells of a shape, spread over it.
+std::vector<Cell> sample_cells(const Bitmap& shape) {
+  // With 16, hardly a place gets past them that does not fit.
+  constexpr std::size_t kSamples = 16;
+  std::vector<Cell> cells, samples;
+  for (int y = 0; y < shape.height(); ++y)
+    for (int x = 0; x < shape.width(); ++x)
+      if (shape.at(x, y)) cells.push_back({x, y});
+  const std::size_t count = std::min(kSamples, cells.size());
+  for (std::size_t i = 0; i < count; ++i) samples.push_back(cells[i * cells.size() / count]);
+  return samples;
+}
+
+/// The lowest, then leftmost place where `shape` collides with nothing of `atlas`. Samples rule out 64 places at a
+/// time.
+std::optional<Cell> find_place(const Bitmap& atlas, const Bitmap& shape) {
+  const std::vector<Cell> samples = sample_cells(shape);
+  for (int y = 0; y + shape.height() <= atlas.height(); ++y)
+    for (int x = 0; x + shape.width() <= atlas.width(); x += 64) {
+      std::uint64_t possible = ~std::uint64_t{0};
+      for (std::size_t i = 0; i < samples.size() && possible; ++i)
+        possible &= ~atlas.bits_from(x + samples[i].x, y + samples[i].y);
+      for (; possible; possible &= possible - 1) {
+        const int place = x + std::countr_zero(possible);
+        if (place + shape.width() > atlas.width()) break;
+        if (!atlas.collides(shape, place, y)) return Cell{place, y};
+      }
+    }
+  return std::nullopt;
 }
 
 /// Sets every cell whose square, grown by `grow`, touches the triangle: separating axes along both sides and each edge.
@@ -143,10 +186,8 @@ class Packer {
             turned(charts_[chart].plane[t[k]], sizes_[chart], quarter_turns) * scale + Vector2d(gutter_, gutter_);
       cover_triangle(corners, cell_, gutter_, shape);
     }
-    for (int y = 0; y + height <= cells_; ++y)
-      for (int x = 0; x + width <= cells_; ++x)
-        if (!atlas.collides(shape, x, y)) return {x, y, std::move(shape)};
-    return {};
+    const std::optional<Cell> found = find_place(atlas, shape);
+    return found ? Fit{found->x, found->y, std::move(shape)} : Fit{};
   }
 
   std::span<const FlatChart> charts_;

@@ -85,6 +85,7 @@ class MeshSurface final : public Surface {
   double uv_area() const override { return uv_area_; }
   void rasterize(Extent extent, TexelRegion region, std::span<const Vec2> offsets, std::span<const std::uint8_t> wanted,
                  TexelPoints& out) const override;
+  std::uint32_t chart(std::uint32_t triangle) const override { return faces_[triangle].chart; }
   void complete(std::span<const HitCoordinates> hits, std::span<SurfaceHit> out) const override;
   std::optional<AnalyticHit> intersect(Vec3, Vec3, float, float) const override { return std::nullopt; }
   const TriangleMesh* mesh() const override { return &mesh_; }

@@ -89,9 +89,7 @@ void compact(TriangleMesh& mesh) {
 /// Drops triangles without area, doubles, and pairs of opposite triangles on the same vertices: simplification folds
 /// thin parts to such fins, and a closed mesh stays closed without both.
 std::size_t drop_degenerate(TriangleMesh& mesh) {
-  const auto winding = [](const Triangle& t) {
-    return (t[0] < t[1]) == ((t[1] < t[2]) == (t[0] < t[2])) ? 1 : -1;
-  };
+  const auto winding = [](const Triangle& t) { return (t[0] < t[1]) == ((t[1] < t[2]) == (t[0] < t[2])) ? 1 : -1; };
   const auto sorted = [](Triangle t) {
     std::sort(t.begin(), t.end());
     return t;

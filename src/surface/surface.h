@@ -62,6 +62,8 @@ class Surface {
 
   /// Everything about the surface at ray hits. `out` has the size of `hits`.
   virtual void complete(std::span<const HitCoordinates> hits, std::span<SurfaceHit> out) const = 0;
+  /// SurfaceHit::chart of a hit, without the rest.
+  virtual std::uint32_t chart(std::uint32_t primitive) const { return primitive; }
 
   /// Analytic surfaces: first hit with t in (t_near, t_far) of a ray in object space (`direction` need not be unit).
   /// Meshes answer nullopt always: their triangles are for the ray tracer.
