@@ -18,8 +18,9 @@
 #include "shader/parameters.h"
 #include "shader/shader.h"
 
-// Reduction maps: what they hold, and filtered lookups.
+// Reduction maps: what they hold, their files, and filtered lookups.
 #include "map/footprint.h"
+#include "map/map_file.h"
 #include "map/pyramid.h"
 #include "map/reduction_map.h"
 
