@@ -129,20 +129,6 @@ TEST(Atlas, StretchLimitIsKept_BySplitting) {
   EXPECT_LE(many.l2_stretch, 1.05);
 }
 
-TEST(Atlas, CrumbsOfSplittingAreMerged) {
-  // A chart of half a thin torus is no disk and falls into pieces; few of them need to stay small.
-  TriangleMesh mesh = torus(96, 24, 1, 0.15f);
-  const AtlasReport report = unwrap(mesh, {.charts = 12, .resolution = 256});
-  std::vector<double> areas(report.charts);
-  const std::vector<std::uint32_t> charts = find_charts(mesh);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.uv_triangles[t];
-    areas[charts[t]] += 0.5 * cross(mesh.uv[b] - mesh.uv[a], mesh.uv[c] - mesh.uv[a]) / report.packing;
-  }
-  EXPECT_LE(report.charts, 24);
-  EXPECT_LE(std::count_if(areas.begin(), areas.end(), [](double area) { return area < 0.25 / 12; }), report.charts / 4);
-}
-
 TEST(Atlas, UnsharedVerticesGiveTheSameCharts) {
   TriangleMesh shared = bumpy_sphere(3), loose;
   for (const Triangle& t : shared.triangles) {
