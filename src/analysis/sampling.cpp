@@ -51,10 +51,12 @@ void RowScaling::add(const SampledReflectances& sampled) {
 
 std::vector<float> RowScaling::scales() const {
   const double largest = square_sums_.empty() ? 0 : *std::max_element(square_sums_.begin(), square_sums_.end());
+  const auto scale = [&](double square_sum) {
+    return square_sum > 0 ? static_cast<float>(std::sqrt(static_cast<double>(places_) / square_sum)) : 1.0f;
+  };
   std::vector<float> scales(square_sums_.size());
   for (std::size_t r = 0; r < scales.size(); ++r)
-    if (square_sums_[r] > kZeroRow * kZeroRow * largest)
-      scales[r] = static_cast<float>(std::sqrt(static_cast<double>(places_) / square_sums_[r]));
+    scales[r] = scale(square_sums_[r] > kZeroRow * kZeroRow * largest ? square_sums_[r] : largest);
   return scales;
 }
 

@@ -40,7 +40,7 @@ class RowScaling {
  public:
   void add(const SampledReflectances& sampled);
   std::size_t places() const { return places_; }
-  /// 1 / RMS a row; 0 for rows that are zero everywhere.
+  /// 1 / RMS a row. Rows that were zero take the scale of the brightest: what shows up in them later is not overlooked.
   std::vector<float> scales() const;
 
  private:
