@@ -145,14 +145,14 @@ void run_render(const RenderCommandOptions& options) {
     }
     const RenderedFrame rendered = renderer->render(scene, frames[i]);
     stop_if_interrupted();
-    write_image(path, rendered.image);
+    write_image(rendered.image, path);
     remember_finished(path, fingerprint);
     rows.push_back(frame_json(frames[i], path, rendered));
     seconds += rendered.seconds;
   }
   write_json(options.common.json, {{"method", options.method}, {"frames", rows}, {"skipped", skipped}});
   fmt::print("{} frame(s) by {} in {:.2f} s", rows.size(), options.method, seconds);
-  fmt::print(skipped ? ", {} already finished\n" : "\n", skipped);
+  fmt::print("{}\n", skipped ? fmt::format(", {} already finished", skipped) : "");
 }
 
 }  // namespace
@@ -176,7 +176,7 @@ void add_render_command(CLI::App& app) {
   sub->add_option("--frames", options->frames, "Frames, for example 1-300,310,320-400:2 (all if not given)");
   sub->add_option("--seed", options->seed, "Seed of the jitter")->capture_default_str();
   sub->add_flag("--force", options->force, "Render again what is already finished");
-  sub->add_option("-D", options->overrides, "Override, for example -D ball.scale=20 or -D camera.width=1920");
+  add_override_option(*sub, options->overrides);
   add_common_options(*sub, options->common);
   sub->footer(
       "Frames whose scene, map and settings have not changed since they were finished are skipped.\n"

@@ -32,19 +32,13 @@ SampleGrid trace_grid(const TileJob& job, Tile tile, int n, RenderCounts& counts
 
   // Charts, places and normals, for telling neighbours apart.
   grid.views.resize(grid.traced.samples.size());
-  std::vector<std::uint32_t> owner;
-  std::vector<HitCoordinates> where;
-  std::vector<SurfaceHit> hits;
-  for (std::uint32_t object = 0; object < job.frame->scene->objects.size(); ++object) {
-    owner.clear(), where.clear();
-    for (std::uint32_t k = 0; k < grid.traced.hits.size(); ++k)
-      if (grid.traced.hits[k].object == object) owner.push_back(k), where.push_back(grid.traced.hits[k].where);
-    hits.resize(owner.size());
-    job.frame->scene->objects[object].surface->complete(where, hits);
-    const Placement& placement = job.frame->tracer->placement(object);
-    for (std::size_t k = 0; k < owner.size(); ++k)
-      grid.views[owner[k]] = {hits[k].chart, 0, placement.point_world(hits[k].position),
-                              placement.direction_world(hits[k].geometric_normal)};
+  for (std::size_t k = 0; k < grid.views.size(); ++k) {
+    const RayHit& hit = grid.traced.hits[k];
+    if (hit.object == kNoObject) continue;
+    const Ray& ray = grid.traced.rays[k];
+    grid.views[k] = {job.frame->scene->objects[hit.object].surface->chart(hit.where.primitive), 0,
+                     ray.origin + ray.direction * hit.t,
+                     job.frame->tracer->placement(hit.object).direction_world(normalized(hit.geometric_normal))};
   }
   return grid;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/hit_footprint.h"
 
@@ -15,44 +16,71 @@ constexpr float kMinimumThroughput = 1e-3f;  // a quarter of an 8-bit step: noth
 /// Rays leave a surface this far above it, as a part of the object's size: well over the error of a float hit.
 constexpr float kRayOffset = 1e-4f;
 
-/// A sample on its way through transparent surfaces.
-struct Path {
-  std::uint32_t sample;
-  Ray ray;
-  RayHit hit;
-  Rgb throughput;
+/// Samples that have passed through the same number of transparent surfaces, and what they hit next.
+struct Layer {
+  std::vector<std::uint32_t> sample;
+  std::vector<Rgb> throughput;
+  std::vector<Ray> rays;
+  std::vector<RayHit> hits;
 };
+
+/// Some of a layer's paths, all on one object. In the first layer path i is sample i with nothing before it.
+struct Paths {
+  const TracedSamples& traced;
+  const Layer* layer;  ///< null: the first
+  std::span<const std::uint32_t> members;
+
+  std::size_t size() const { return members.size(); }
+  std::uint32_t sample(std::size_t i) const { return layer ? layer->sample[members[i]] : members[i]; }
+  Rgb throughput(std::size_t i) const { return layer ? layer->throughput[members[i]] : Rgb{1, 1, 1}; }
+  const Ray& ray(std::size_t i) const { return (layer ? layer->rays : traced.rays)[members[i]]; }
+  const RayHit& hit(std::size_t i) const { return (layer ? layer->hits : traced.hits)[members[i]]; }
+};
+
+/// The indices of `hits`, sorted by object without changing the order on each: those on object o are at
+/// [starts[o], starts[o + 1]), misses at the end.
+struct ByObject {
+  std::vector<std::uint32_t> indices, starts;
+};
+ByObject sort_by_object(std::span<const RayHit> hits, std::size_t objects) {
+  const auto slot = [&](const RayHit& hit) { return hit.object == kNoObject ? objects : hit.object; };
+  ByObject sorted{std::vector<std::uint32_t>(hits.size()), std::vector<std::uint32_t>(objects + 2, 0)};
+  for (const RayHit& hit : hits) ++sorted.starts[slot(hit) + 1];
+  for (std::size_t o = 0; o <= objects; ++o) sorted.starts[o + 1] += sorted.starts[o];
+  std::vector<std::uint32_t> next(sorted.starts.begin(), sorted.starts.end() - 1);
+  for (std::uint32_t i = 0; i < hits.size(); ++i) sorted.indices[next[slot(hits[i])]++] = i;
+  return sorted;
+}
 
 float offset_of(const Object& object) {
   return kRayOffset * 0.5f * length(object.surface->upper() - object.surface->lower()) * object.transform.scale;
 }
 
-/// Places `paths` (all on one object) and their footprints.
-void place_hits(const FrameContext& frame, const TracedSamples& traced, std::span<const Path> paths, bool first_layer,
-                ShadingBatch& batch) {
-  const std::uint32_t object = paths.front().hit.object;
+/// Places `paths` and their footprints.
+void place_hits(const FrameContext& frame, const Paths& paths, ShadingBatch& batch) {
+  const std::uint32_t object = paths.hit(0).object;
   const Placement& placement = frame.tracer->placement(object);
   std::vector<HitCoordinates> where(paths.size());
-  for (std::size_t i = 0; i < paths.size(); ++i) where[i] = paths[i].hit.where;
+  for (std::size_t i = 0; i < paths.size(); ++i) where[i] = paths.hit(i).where;
   batch.hits.resize(paths.size());
   frame.scene->objects[object].surface->complete(where, batch.hits);
 
+  const Vec3 eye = placement.point_object(frame.camera.origin);
   const std::size_t count = paths.size();
   batch.turned.resize(count), batch.frames.resize(count), batch.footprints.resize(count), batch.to_viewer.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     SurfaceHit& hit = batch.hits[i];
-    const Vec3 direction = placement.direction_object(paths[i].ray.direction);
+    const Vec3 direction = placement.direction_object(paths.ray(i).direction);
     batch.to_viewer[i] = -direction;
     batch.turned[i] = dot(hit.geometric_normal, direction) > 0;
     if (batch.turned[i]) hit.normal = -hit.normal, hit.geometric_normal = -hit.geometric_normal;
     batch.frames[i] = make_frame(hit.normal, hit.tangent);
-    if (first_layer && !traced.footprints.empty()) {
-      batch.footprints[i] = traced.footprints[paths[i].sample];
+    if (!paths.layer && !paths.traced.footprints.empty()) {
+      batch.footprints[i] = paths.traced.footprints[paths.sample(i)];
       continue;
     }
-    const CameraSample& sample = traced.samples[paths[i].sample];
+    const CameraSample& sample = paths.traced.samples[paths.sample(i)];
     const DirectionDifferential world = direction_differential(frame.camera, sample.x, sample.y);
-    const Vec3 eye = placement.point_object(frame.camera.origin);
     batch.footprints[i] =
         camera_footprint(hit, direction, {placement.direction_object(world.dx), placement.direction_object(world.dy)},
                          length(hit.position - eye), sample.extent);
@@ -60,10 +88,10 @@ void place_hits(const FrameContext& frame, const TracedSamples& traced, std::spa
 }
 
 /// Light `light` as it arrives at every hit of the batch, shadows included.
-void light_hits(const FrameContext& frame, const TracedSamples& traced, std::span<const Path> paths, const Light& light,
-                ShadingBatch& batch, ShadingBatch::Light& lit, RenderCounts& counts) {
-  const Object& object = frame.scene->objects[paths.front().hit.object];
-  const Placement& placement = frame.tracer->placement(paths.front().hit.object);
+void light_hits(const FrameContext& frame, const Paths& paths, const Light& light, ShadingBatch& batch,
+                ShadingBatch::Light& lit, RenderCounts& counts) {
+  const Object& object = frame.scene->objects[paths.hit(0).object];
+  const Placement& placement = frame.tracer->placement(paths.hit(0).object);
   const float offset = offset_of(object);
   lit.to_light.resize(paths.size());
   lit.irradiance = Planes<3>(paths.size());
@@ -87,7 +115,7 @@ void light_hits(const FrameContext& frame, const TracedSamples& traced, std::spa
     if (!light.shadows) continue;
     shadow_rays.push_back({position + normal * offset, direction, 0, point ? distance - offset : distance});
     widths.push_back(length(position - frame.camera.origin) * frame.camera.pixel_angle *
-                     traced.samples[paths[i].sample].extent);
+                     paths.traced.samples[paths.sample(i)].extent);
     owner.push_back(i);
   }
   const std::vector<Rgb> passed = transmittance_along(frame, std::move(shadow_rays), widths, counts);
@@ -97,11 +125,11 @@ void light_hits(const FrameContext& frame, const TracedSamples& traced, std::spa
   }
 }
 
-void record_views(const FrameContext& frame, std::span<const Path> paths, const ShadingBatch& batch,
+void record_views(const FrameContext& frame, const Paths& paths, const ShadingBatch& batch,
                   std::vector<SampleView>& views) {
-  const Placement& placement = frame.tracer->placement(paths.front().hit.object);
+  const Placement& placement = frame.tracer->placement(paths.hit(0).object);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    SampleView& view = views[paths[i].sample];
+    SampleView& view = views[paths.sample(i)];
     view.chart = batch.hits[i].chart;
     view.position = placement.point_world(batch.hits[i].position);
     view.geometric_normal = placement.direction_world(batch.hits[i].geometric_normal);
@@ -119,28 +147,45 @@ void add_light(const CameraSample& sample, Rgb light, float* rgb) {
   pixel[2] += sample.weight * light.b;
 }
 
-/// Shades the paths that hit one object, and appends those that go on behind it to `onward`.
-void shade_object(const FrameContext& frame, const TracedSamples& traced, std::span<const Path> paths, bool first_layer,
-                  float* rgb, RenderCounts& counts, std::vector<SampleView>* views, std::vector<Path>& onward) {
+/// Shades paths on one object, and appends those that go on behind it to `onward`.
+void shade_object(const FrameContext& frame, const Paths& paths, float* rgb, RenderCounts& counts,
+                  std::vector<SampleView>* views, Layer& onward) {
   ShadingBatch batch;
   batch.time = frame.scene->time_seconds;
-  place_hits(frame, traced, paths, first_layer, batch);
+  place_hits(frame, paths, batch);
   batch.lights.resize(frame.scene->lights.size());
   for (std::size_t l = 0; l < batch.lights.size(); ++l)
-    light_hits(frame, traced, paths, frame.scene->lights[l], batch, batch.lights[l], counts);
-  if (views && first_layer) record_views(frame, paths, batch, *views);
+    light_hits(frame, paths, frame.scene->lights[l], batch, batch.lights[l], counts);
+  if (views && !paths.layer) record_views(frame, paths, batch, *views);
 
   ShadedBatch shaded;
-  const std::uint32_t object = paths.front().hit.object;
+  const std::uint32_t object = paths.hit(0).object;
   frame.shading[object]->shade(batch, shaded, counts);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    add_light(traced.samples[paths[i].sample], paths[i].throughput * shaded.radiance.rgb(i), rgb);
-    const Rgb throughput = paths[i].throughput * shaded.transmittance.rgb(i);
+    add_light(paths.traced.samples[paths.sample(i)], paths.throughput(i) * shaded.radiance.rgb(i), rgb);
+    const Rgb throughput = paths.throughput(i) * shaded.transmittance.rgb(i);
     if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
-    Ray ray = paths[i].ray;
-    ray.t_near = paths[i].hit.t + offset_of(frame.scene->objects[object]);
-    onward.push_back({paths[i].sample, ray, {}, throughput});
+    Ray ray = paths.ray(i);
+    ray.t_near = paths.hit(i).t + offset_of(frame.scene->objects[object]);
+    onward.sample.push_back(paths.sample(i));
+    onward.throughput.push_back(throughput);
+    onward.rays.push_back(ray);
   }
+}
+
+/// Shades everything that one layer hit; what goes on lands in `onward`.
+void shade_layer(const FrameContext& frame, const TracedSamples& traced, const Layer* layer, float* rgb,
+                 RenderCounts& counts, std::vector<SampleView>* views, Layer& onward) {
+  const std::size_t objects = frame.scene->objects.size();
+  const ByObject sorted = sort_by_object(layer ? layer->hits : traced.hits, objects);
+  const auto members = [&](std::size_t o) {
+    return std::span(sorted.indices).subspan(sorted.starts[o], sorted.starts[o + 1] - sorted.starts[o]);
+  };
+  for (std::size_t o = 0; o < objects; ++o)
+    if (!members(o).empty()) shade_object(frame, {traced, layer, members(o)}, rgb, counts, views, onward);
+  const Paths missed{traced, layer, members(objects)};
+  for (std::size_t i = 0; i < missed.size(); ++i)
+    add_light(traced.samples[missed.sample(i)], missed.throughput(i) * frame.scene->background, rgb);
 }
 
 /// Lets the rays that hit `object` through as far as it transmits, and on to what lies behind. False if none did.
@@ -186,33 +231,14 @@ void trace_samples(const FrameContext& frame, TracedSamples& traced, RenderCount
 void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
                    std::vector<SampleView>* views) {
   if (views) views->assign(traced.samples.size(), {});
-  std::vector<Path> paths(traced.samples.size());
-  for (std::uint32_t i = 0; i < paths.size(); ++i) paths[i] = {i, traced.rays[i], traced.hits[i], {1, 1, 1}};
-
-  for (int layer = 0; layer < kMaxLayers && !paths.empty(); ++layer) {
-    // One batch an object; the order within it stays that of the samples.
-    std::stable_sort(paths.begin(), paths.end(),
-                     [](const Path& a, const Path& b) { return a.hit.object < b.hit.object; });
-    std::vector<Path> onward;
-    for (std::size_t first = 0; first < paths.size();) {
-      std::size_t last = first;
-      while (last < paths.size() && paths[last].hit.object == paths[first].hit.object) ++last;
-      const std::span<const Path> same(paths.data() + first, last - first);
-      if (same.front().hit.object != kNoObject)
-        shade_object(frame, traced, same, layer == 0, rgb, counts, views, onward);
-      else
-        for (const Path& path : same)
-          add_light(traced.samples[path.sample], path.throughput * frame.scene->background, rgb);
-      first = last;
-    }
-    // What lies behind.
-    std::vector<Ray> rays(onward.size());
-    std::vector<RayHit> hits(onward.size());
-    for (std::size_t i = 0; i < onward.size(); ++i) rays[i] = onward[i].ray;
-    frame.tracer->intersect(rays, hits);
-    counts.camera_rays += rays.size();
-    for (std::size_t i = 0; i < onward.size(); ++i) onward[i].hit = hits[i];
-    paths = std::move(onward);
+  Layer layer, onward;
+  shade_layer(frame, traced, nullptr, rgb, counts, views, onward);
+  for (int depth = 1; depth < kMaxLayers && !onward.rays.empty(); ++depth) {
+    layer = std::exchange(onward, {});
+    layer.hits.resize(layer.rays.size());
+    frame.tracer->intersect(layer.rays, layer.hits);
+    counts.camera_rays += layer.rays.size();
+    shade_layer(frame, traced, &layer, rgb, counts, views, onward);
   }
 }
 
