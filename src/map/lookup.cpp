@@ -26,6 +26,9 @@ constexpr float kTexelPerMinor = 0.57735027f;
 /// floor(log2(x)) for finite x >= 1.
 int floor_log2(float x) { return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23) - 127; }
 
+/// 2^exponent, for exponents of levels.
+float power_of_two(int exponent) { return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23); }
+
 bool is_finite(const Footprint& f) {
   return std::isfinite(f.uv.x + f.uv.y + f.duv_dx.x + f.duv_dx.y + f.duv_dy.x + f.duv_dy.y);
 }
@@ -47,7 +50,7 @@ LookupPlan plan_variance_matched(const Footprint& footprint, Extent extent, int 
 
   // Between two levels the variances add up to that of the texel wanted: (1 - f) c0^2 + f (2 c0)^2 = c^2.
   plan.level = std::min(floor_log2(texel), std::max(0, levels - 2));
-  const float ratio = std::ldexp(texel, -plan.level);
+  const float ratio = texel * power_of_two(-plan.level);
   plan.coarse_part = levels > 1 ? std::clamp((ratio * ratio - 1) / 3, 0.0f, 1.0f) : 0.0f;
   return plan;
 }
@@ -72,7 +75,12 @@ struct Lanes {
   static Lanes load(const std::uint8_t* p) {
     return {_mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p))))};
   }
-  void add(float weight, Lanes x) { v = _mm256_fmadd_ps(_mm256_set1_ps(weight), x.v, v); }
+  /// Two short chains rather than one long: the sum over the taps waits for one addition each.
+  void add(const float (&w)[4], Lanes a, Lanes b, Lanes c, Lanes d) {
+    const __m256 ab = _mm256_fmadd_ps(_mm256_set1_ps(w[1]), b.v, _mm256_mul_ps(_mm256_set1_ps(w[0]), a.v));
+    const __m256 cd = _mm256_fmadd_ps(_mm256_set1_ps(w[3]), d.v, _mm256_mul_ps(_mm256_set1_ps(w[2]), c.v));
+    v = _mm256_add_ps(v, _mm256_add_ps(ab, cd));
+  }
   void store_scaled(float s, const float* scales, float* out) const {
     _mm256_store_ps(out, _mm256_mul_ps(_mm256_mul_ps(v, _mm256_load_ps(scales)), _mm256_set1_ps(s)));
   }
@@ -89,8 +97,8 @@ struct Lanes {
     for (std::size_t i = 0; i < kLanes; ++i) lanes.v[i] = static_cast<float>(p[i]);
     return lanes;
   }
-  void add(float weight, Lanes x) {
-    for (std::size_t i = 0; i < kLanes; ++i) v[i] += weight * x.v[i];
+  void add(const float (&w)[4], Lanes a, Lanes b, Lanes c, Lanes d) {
+    for (std::size_t i = 0; i < kLanes; ++i) v[i] += (w[0] * a.v[i] + w[1] * b.v[i]) + (w[2] * c.v[i] + w[3] * d.v[i]);
   }
   void store_scaled(float s, const float* scales, float* out) const {
     for (std::size_t i = 0; i < kLanes; ++i) out[i] = v[i] * scales[i] * s;
@@ -130,38 +138,46 @@ struct Pyramid<Component>::Sum {
   Lanes chunk[2];
 };
 
+/// `uv.x` is in [0, 1] where u wraps.
 template <typename Component>
 template <int kChunks, bool kUseCoverage>
-inline void Pyramid<Component>::add_tap(int level, Vec2 uv, float part, Sum& sum) const {
-  const Level& l = levels_[level];
-  const float width = static_cast<float>(l.extent.width), height = static_cast<float>(l.extent.height);
-  float x = (wraps_u_ ? uv.x - std::floor(uv.x) : uv.x) * width - 0.5f;
-  x = wraps_u_ ? (x < 0 ? x + width : x) : std::clamp(x, 0.0f, width - 1);
-  const float y = std::clamp(uv.y * height - 0.5f, 0.0f, height - 1);
-  const int x0 = std::min(static_cast<int>(x), l.extent.width - 1), y0 = static_cast<int>(y);
+inline void Pyramid<Component>::add_tap(const Level& level, Vec2 uv, float part, Sum& sum) const {
+  const float width = static_cast<float>(level.extent.width), height = static_cast<float>(level.extent.height);
+  float x = uv.x * width - 0.5f;
+  x = wraps_u_ ? x + (x < 0 ? width : 0.0f) : std::min(std::max(x, 0.0f), width - 1);
+  const float y = std::min(std::max(uv.y * height - 0.5f, 0.0f), height - 1);
+  const int x0 = std::min(static_cast<int>(x), level.extent.width - 1), y0 = static_cast<int>(y);
   const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  const Component* upper = data_.data() + l.offset + y0 * l.row_stride + static_cast<std::size_t>(x0) * texel_stride_;
-  const Component* lower = y0 + 1 < l.extent.height ? upper + l.row_stride : upper;
 
-  const auto add = [&](const Component* texel, float weight) {
-    const float covered = kUseCoverage ? weight * static_cast<float>(texel[0]) : weight;
-    sum.coverage += covered;
-    for (int i = 0; i < kChunks; ++i) sum.chunk[i].add(covered, Lanes::load(texel + 1 + i * kLanes));
-  };
-  add(upper, part * (1 - fx) * (1 - fy));
-  add(upper + texel_stride_, part * fx * (1 - fy));
-  add(lower, part * (1 - fx) * fy);
-  add(lower + texel_stride_, part * fx * fy);
+  // Two texels side by side, and the two below them.
+  const int stride = texel_stride_;
+  const Component* a = data_.data() + level.offset + y0 * level.row_stride + static_cast<std::size_t>(x0) * stride;
+  const Component* c = y0 + 1 < level.extent.height ? a + level.row_stride : a;
+  const float upper = part * (1 - fy), lower = part * fy;
+  float weight[4] = {upper * (1 - fx), upper * fx, lower * (1 - fx), lower * fx};
+  if (kUseCoverage) {
+    weight[0] *= static_cast<float>(a[0]), weight[1] *= static_cast<float>(a[stride]);
+    weight[2] *= static_cast<float>(c[0]), weight[3] *= static_cast<float>(c[stride]);
+  }
+  sum.coverage += (weight[0] + weight[1]) + (weight[2] + weight[3]);
+  for (int i = 0; i < kChunks; ++i) {
+    const int channel = 1 + i * static_cast<int>(kLanes);
+    sum.chunk[i].add(weight, Lanes::load(a + channel), Lanes::load(a + stride + channel), Lanes::load(c + channel),
+                     Lanes::load(c + stride + channel));
+  }
 }
 
 template <typename Component>
 template <int kChunks, bool kUseCoverage>
 FilteredTexel Pyramid<Component>::gather(const LookupPlan& plan) const {
+  const Level& fine = levels_[plan.level];
+  const Level& coarse = levels_[plan.coarse_part > 0 ? plan.level + 1 : plan.level];
   Sum sum;
   for (int i = 0; i < plan.taps; ++i) {
-    const Vec2 uv = plan.first_uv + plan.step_uv * static_cast<float>(i);
-    if (plan.coarse_part < 1) add_tap<kChunks, kUseCoverage>(plan.level, uv, 1 - plan.coarse_part, sum);
-    if (plan.coarse_part > 0) add_tap<kChunks, kUseCoverage>(plan.level + 1, uv, plan.coarse_part, sum);
+    Vec2 uv = plan.first_uv + plan.step_uv * static_cast<float>(i);
+    if (wraps_u_) uv.x -= std::floor(uv.x);
+    if (plan.coarse_part < 1) add_tap<kChunks, kUseCoverage>(fine, uv, 1 - plan.coarse_part, sum);
+    if (plan.coarse_part > 0) add_tap<kChunks, kUseCoverage>(coarse, uv, plan.coarse_part, sum);
   }
   FilteredTexel result;
   if (!(sum.coverage > 0)) return result;

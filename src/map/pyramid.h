@@ -123,7 +123,7 @@ class Pyramid {
   void store(int level, const BaseLevel& texels);
   void fill_uncovered(int level);
   template <int kChunks, bool kUseCoverage>
-  void add_tap(int level, Vec2 uv, float part, Sum& sum) const;
+  void add_tap(const Level& level, Vec2 uv, float part, Sum& sum) const;
   template <int kChunks, bool kUseCoverage>
   FilteredTexel gather(const LookupPlan& plan) const;
 
