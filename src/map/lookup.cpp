@@ -23,6 +23,15 @@ constexpr float kTapSpacing = 1.5f;
 /// m^2 / 12. They match at c = m / sqrt 3.
 constexpr float kTexelPerMinor = 0.57735027f;
 
+/// Taps that kMaxAnisotropy and kTapSpacing lead to at most: 16 sqrt 3 / 1.5 + .5, rounded up.
+constexpr int kMaxTaps = 19;
+/// 1 / sqrt(n^2 - 1), the spacing of n taps of unit spread: looked up, since the square root would be waited for.
+const std::array<float, kMaxTaps + 1> kTapSpread = [] {
+  std::array<float, kMaxTaps + 1> spread{};
+  for (int n = 2; n <= kMaxTaps; ++n) spread[n] = 1 / std::sqrt(static_cast<float>(n * n - 1));
+  return spread;
+}();
+
 /// floor(log2(x)) for finite x >= 1.
 int floor_log2(float x) { return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23) - 127; }
 
@@ -42,10 +51,9 @@ LookupPlan plan_variance_matched(const Footprint& footprint, Extent extent, int 
   LookupPlan plan;
   plan.first_uv = footprint.uv;
   if (rest > 0.5f * texel) {
-    plan.taps = std::max(2, static_cast<int>(std::ceil(rest / (kTapSpacing * texel) + 0.5f)));
-    const float n = static_cast<float>(plan.taps);
-    plan.step_uv = axes.major_direction_uv * (rest / (axes.major * std::sqrt(n * n - 1)));
-    plan.first_uv = footprint.uv - plan.step_uv * (0.5f * (n - 1));
+    plan.taps = std::clamp(static_cast<int>(std::ceil(rest / (kTapSpacing * texel) + 0.5f)), 2, kMaxTaps);
+    plan.step_uv = axes.major_direction_uv * (rest / axes.major * kTapSpread[plan.taps]);
+    plan.first_uv = footprint.uv - plan.step_uv * (0.5f * static_cast<float>(plan.taps - 1));
   }
 
   // Between two levels the variances add up to that of the texel wanted: (1 - f) c0^2 + f (2 c0)^2 = c^2.
@@ -65,6 +73,10 @@ LookupPlan plan_enclosing_square(const Footprint& f, Extent extent, int levels) 
   plan.coarse_part = level - static_cast<float>(plan.level);
   return plan;
 }
+
+/// Most taps: their weights need no coverage.
+bool fully_covered(std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) { return (a & b & c & d) == 255; }
+bool fully_covered(float a, float b, float c, float d) { return a == 1 && b == 1 && c == 1 && d == 1; }
 
 #ifdef __AVX2__
 
@@ -155,9 +167,9 @@ inline void Pyramid<Component>::add_tap(const Level& level, Vec2 uv, float part,
   const Component* c = y0 + 1 < level.extent.height ? a + level.row_stride : a;
   const float upper = part * (1 - fy), lower = part * fy;
   float weight[4] = {upper * (1 - fx), upper * fx, lower * (1 - fx), lower * fx};
-  if (kUseCoverage) {
-    weight[0] *= static_cast<float>(a[0]), weight[1] *= static_cast<float>(a[stride]);
-    weight[2] *= static_cast<float>(c[0]), weight[3] *= static_cast<float>(c[stride]);
+  if (kUseCoverage && !fully_covered(a[0], a[stride], c[0], c[stride])) {
+    weight[0] *= kComponentStep * static_cast<float>(a[0]), weight[1] *= kComponentStep * static_cast<float>(a[stride]);
+    weight[2] *= kComponentStep * static_cast<float>(c[0]), weight[3] *= kComponentStep * static_cast<float>(c[stride]);
   }
   sum.coverage += (weight[0] + weight[1]) + (weight[2] + weight[3]);
   for (int i = 0; i < kChunks; ++i) {
@@ -181,7 +193,7 @@ FilteredTexel Pyramid<Component>::gather(const LookupPlan& plan) const {
   }
   FilteredTexel result;
   if (!(sum.coverage > 0)) return result;
-  if (kUseCoverage) result.coverage = std::min(1.0f, sum.coverage * kComponentStep / static_cast<float>(plan.taps));
+  if (kUseCoverage) result.coverage = std::min(1.0f, sum.coverage / static_cast<float>(plan.taps));
   for (int i = 0; i < kChunks; ++i)
     sum.chunk[i].store_scaled(kComponentStep / sum.coverage, &scales_[i * kLanes], &result.channel[i * kLanes]);
   return result;
