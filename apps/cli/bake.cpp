@@ -21,7 +21,7 @@ namespace redmap::cli {
 namespace {
 
 struct Options {
-  std::string scene, folder;
+  std::string scene, folder, selection = "greedy";
   std::vector<std::string> objects, overrides;
   int size = 0;  ///< 0: as the scene says
   BakeOptions bake;
@@ -41,8 +41,15 @@ std::vector<Object> objects_to_bake(const Options& options, const SceneFile& fil
   return objects;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw Error("{}: cannot make the folder for the maps: {}", folder.string(), error.message());
+}
+
 nlohmann::json bake_object(const Options& options, const Object& object) {
   BakeOptions bake_options = options.bake;
+  bake_options.selection = options.selection == "paper" ? BasisSelection::kPaper : BasisSelection::kGreedy;
   bake_options.size = options.size > 0 ? options.size : object.map_size;
   const std::filesystem::path path = map_path(options, object);
   BakeReport report;
@@ -55,7 +62,7 @@ nlohmann::json bake_object(const Options& options, const Object& object) {
     };
     map = bake(*object.surface, *object.shader, bake_options, &report);
   }
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+  make_folder(path.parent_path());
   write_map(path, map);
   nlohmann::json json = bake_json(map, report);
   json["object"] = object.name;
@@ -107,11 +114,9 @@ void add_bake_command(CLI::App& app) {
   sub->add_option("--max-basis", bake_options.max_basis, "most basis reflectances")->capture_default_str();
   sub->add_option("--sub-samples", bake_options.sub_samples, "n x n points a texel where neighbours differ")
       ->capture_default_str();
-  const std::map<std::string, BasisSelection> selections{{"greedy", BasisSelection::kGreedy},
-                                                         {"paper", BasisSelection::kPaper}};
-  sub->add_option("--selection", bake_options.selection, "who chooses the basis: greedy, or the paper's blocks")
-      ->transform(CLI::CheckedTransformer(selections).description("{greedy,paper}"))
-      ->default_str("greedy");
+  sub->add_option("--selection", options->selection, "who chooses the basis: greedy, or the paper's blocks")
+      ->check(CLI::IsMember({"greedy", "paper"}))
+      ->capture_default_str();
   sub->add_option("-D", options->overrides, "object.parameter=value");
   sub->add_option("-o,--output", options->folder, "folder for the maps");
   add_common_options(*sub, options->common);
