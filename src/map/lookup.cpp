@@ -191,11 +191,11 @@ FilteredTexel Pyramid<Component>::gather(const LookupPlan& plan) const {
     if (plan.coarse_part < 1) add_tap<kChunks, kUseCoverage>(fine, uv, 1 - plan.coarse_part, sum);
     if (plan.coarse_part > 0) add_tap<kChunks, kUseCoverage>(coarse, uv, plan.coarse_part, sum);
   }
+  // Both chunks are stored, so that nothing has to be cleared first.
   FilteredTexel result;
-  if (!(sum.coverage > 0)) return result;
-  if (kUseCoverage) result.coverage = std::min(1.0f, sum.coverage / static_cast<float>(plan.taps));
-  for (int i = 0; i < kChunks; ++i)
-    sum.chunk[i].store_scaled(kComponentStep / sum.coverage, &scales_[i * kLanes], &result.channel[i * kLanes]);
+  result.coverage = kUseCoverage ? std::min(1.0f, sum.coverage / static_cast<float>(plan.taps)) : 0.0f;
+  const float scale = sum.coverage > 0 ? kComponentStep / sum.coverage : 0.0f;
+  for (int i = 0; i < 2; ++i) sum.chunk[i].store_scaled(scale, &scales_[i * kLanes], &result.channel[i * kLanes]);
   return result;
 }
 
