@@ -200,15 +200,50 @@ FilteredTexel Pyramid<Component>::gather(const LookupPlan& plan) const {
 }
 
 template <typename Component>
-FilteredTexel Pyramid<Component>::lookup(const Footprint& footprint, LookupFilter filter) const {
-  const LookupPlan plan = plan_lookup(footprint, extent(0), levels(), filter);
+FilteredTexel Pyramid<Component>::filter(const LookupPlan& plan) const {
   const bool one_chunk = channels_ <= static_cast<int>(kLanes);
   const FilteredTexel texel = one_chunk ? gather<1, true>(plan) : gather<2, true>(plan);
   if (texel.coverage > 0) return texel;
   return one_chunk ? gather<1, false>(plan) : gather<2, false>(plan);
 }
 
-template FilteredTexel Pyramid<std::uint8_t>::lookup(const Footprint&, LookupFilter) const;
-template FilteredTexel Pyramid<float>::lookup(const Footprint&, LookupFilter) const;
+template <typename Component>
+void Pyramid<Component>::prefetch(const LookupPlan& plan) const {
+  Vec2 uv = plan.first_uv;
+  if (wraps_u_) uv.x -= std::floor(uv.x);
+  const int last = std::min(plan.level + 1, levels() - 1);
+  for (int l = plan.level; l <= last; ++l) {
+    const Level& level = levels_[l];
+    const auto clamped = [](float value, int size) { return std::clamp(static_cast<int>(value), 0, size - 1); };
+    const int x = clamped(uv.x * static_cast<float>(level.extent.width) - 0.5f, level.extent.width);
+    const int y = clamped(uv.y * static_cast<float>(level.extent.height) - 0.5f, level.extent.height);
+    const Component* at = texel(l, x, y);
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + level.row_stride);
+  }
+}
+
+template <typename Component>
+FilteredTexel Pyramid<Component>::lookup(const Footprint& footprint, LookupFilter how) const {
+  return filter(plan_lookup(footprint, extent(0), levels(), how));
+}
+
+template <typename Component>
+void Pyramid<Component>::lookup(std::span<const Footprint> footprints, LookupFilter how,
+                                std::span<FilteredTexel> out) const {
+  std::array<LookupPlan, kLookupBatch> plans;
+  for (std::size_t first = 0; first < footprints.size(); first += kLookupBatch) {
+    const std::size_t count = std::min(kLookupBatch, footprints.size() - first);
+    // All texels are asked for before the first is waited for.
+    for (std::size_t i = 0; i < count; ++i) {
+      plans[i] = plan_lookup(footprints[first + i], extent(0), levels(), how);
+      prefetch(plans[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) out[first + i] = filter(plans[i]);
+  }
+}
+
+template class Pyramid<std::uint8_t>;
+template class Pyramid<float>;
 
 }  // namespace redmap

@@ -19,6 +19,9 @@ namespace redmap {
 /// Most channels a pyramid can have, coverage not counted.
 inline constexpr int kMaxChannels = 16;
 
+/// Lookups whose memory is asked for together: their first texels fit the first-level cache several times over.
+inline constexpr std::size_t kLookupBatch = 32;
+
 /// Result of a lookup: filtered channels, already divided by the filtered coverage. Channels past the pyramid's are
 /// zero.
 struct FilteredTexel {
@@ -102,7 +105,9 @@ class Pyramid {
 
   /// The map filtered over `footprint`. u wraps where the surface does, else it clamps, as v always does. Where nothing
   /// is covered, `coverage` is zero and the channels are those that were pulled in.
-  FilteredTexel lookup(const Footprint& footprint, LookupFilter filter = LookupFilter::kVarianceMatched) const;
+  FilteredTexel lookup(const Footprint& footprint, LookupFilter how = LookupFilter::kVarianceMatched) const;
+  /// The same for many footprints at once, which waits less for memory. `out` has the size of `footprints`.
+  void lookup(std::span<const Footprint> footprints, LookupFilter how, std::span<FilteredTexel> out) const;
 
  private:
   struct Level {
@@ -126,6 +131,8 @@ class Pyramid {
   void add_tap(const Level& level, Vec2 uv, float part, Sum& sum) const;
   template <int kChunks, bool kUseCoverage>
   FilteredTexel gather(const LookupPlan& plan) const;
+  FilteredTexel filter(const LookupPlan& plan) const;
+  void prefetch(const LookupPlan& plan) const;
 
   int channels_ = 0, texel_stride_ = 0;
   bool wraps_u_ = false;

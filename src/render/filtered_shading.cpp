@@ -1,6 +1,7 @@
 #include "render/filtered_shading.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/error.h"
 
@@ -138,9 +139,12 @@ std::vector<LaneVector<float>> lookup_weights(const ReductionMap& map, std::span
                                               LookupFilter filter, RenderCounts& counts) {
   const std::size_t basis = map.basis.size();
   std::vector<LaneVector<float>> weights(basis, LaneVector<float>(padded(footprints.size()), 0.0f));
-  for (std::size_t i = 0; i < footprints.size(); ++i) {
-    const FilteredTexel texel = map.weights.lookup(footprints[i], filter);
-    for (std::size_t b = 0; b < basis; ++b) weights[b][i] = texel.channel[b];
+  std::array<FilteredTexel, kLookupBatch> texels;
+  for (std::size_t first = 0; first < footprints.size(); first += kLookupBatch) {
+    const std::size_t count = std::min(kLookupBatch, footprints.size() - first);
+    map.weights.lookup(footprints.subspan(first, count), filter, {texels.data(), count});
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t b = 0; b < basis; ++b) weights[b][first + i] = texels[i].channel[b];
   }
   counts.lookups += footprints.size();
   return weights;

@@ -40,10 +40,9 @@ SurfacePoints surface_points(std::span<const SurfaceHit> hits, float time) {
   points.resize(hits.size());
   points.time = time;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const Frame frame = make_frame(hits[i].normal, hits[i].tangent);
     points.position.set(i, hits[i].position);
-    points.normal.set(i, frame.z);
-    points.tangent.set(i, frame.x);
+    points.normal.set(i, hits[i].normal);
+    points.tangent.set(i, hits[i].tangent);
     points.uv.set(i, hits[i].uv);
   }
   return points;

@@ -8,7 +8,7 @@
 
 namespace redmap {
 
-/// Pixels a side: a wavefront of 4 096 samples at 2 x 2 rays stays in the second-level cache.
+/// Pixels a side: a wavefront of 4 096 samples at 2 x 2 rays stays in the second-level cache; 64 was no faster.
 inline constexpr int kTileSize = 32;
 
 struct Tile {

@@ -14,60 +14,72 @@ enum class Refine : std::uint8_t { kNo, kSeam, kSilhouette, kSupersample };
 struct SampleGrid {
   int n, width, height;
   TracedSamples traced;
-  std::vector<SampleView> views;
 
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j + 1) * width + (i + 1); }
 };
 
 SampleGrid trace_grid(const TileJob& job, Tile tile, int n, RenderCounts& counts) {
-  SampleGrid grid{n, (tile.x1 - tile.x0) * n + 2, (tile.y1 - tile.y0) * n + 2, {}, {}};
+  SampleGrid grid{n, (tile.x1 - tile.x0) * n + 2, (tile.y1 - tile.y0) * n + 2, {}};
   const float step = 1.0f / static_cast<float>(n);
+  grid.traced.samples.reserve(static_cast<std::size_t>(grid.width) * grid.height);
   for (int j = -1; j < grid.height - 1; ++j)
     for (int i = -1; i < grid.width - 1; ++i) {
       const float x = static_cast<float>(tile.x0) + (static_cast<float>(i) + 0.5f) * step;
       const float y = static_cast<float>(tile.y0) + (static_cast<float>(j) + 0.5f) * step;
-      grid.traced.samples.push_back({0, x, y, step, step * step});
+      const int pixel = static_cast<int>(y) * job.image_width + static_cast<int>(x);  // not used around the tile
+      grid.traced.samples.push_back({static_cast<std::uint32_t>(pixel), x, y, step, step * step});
     }
   trace_samples(*job.frame, grid.traced, counts);
-
-  // Charts, places and normals, for telling neighbours apart.
-  grid.views.resize(grid.traced.samples.size());
-  for (std::size_t k = 0; k < grid.views.size(); ++k) {
-    const RayHit& hit = grid.traced.hits[k];
-    if (hit.object == kNoObject) continue;
-    const Ray& ray = grid.traced.rays[k];
-    grid.views[k] = {job.frame->scene->objects[hit.object].surface->chart(hit.where.primitive), 0,
-                     ray.origin + ray.direction * hit.t,
-                     job.frame->tracer->placement(hit.object).direction_world(normalized(hit.geometric_normal))};
-  }
   return grid;
 }
 
+/// What tells samples apart: chart, place and normal in the world.
+std::vector<SampleView> view_grid(const FrameContext& frame, const SampleGrid& grid) {
+  std::vector<SampleView> views(grid.traced.samples.size());
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    const RayHit& hit = grid.traced.hits[k];
+    if (hit.object == kNoObject) continue;
+    const Ray& ray = grid.traced.rays[k];
+    views[k] = {frame.scene->objects[hit.object].surface->chart(hit.where.primitive), 0,
+                ray.origin + ray.direction * hit.t,
+                frame.tracer->placement(hit.object).direction_world(normalized(hit.geometric_normal))};
+  }
+  return views;
+}
+
 /// How two neighbouring samples differ.
-Refine difference(const FrameContext& frame, const SampleGrid& grid, std::size_t a, std::size_t b) {
+Refine difference(const FrameContext& frame, const SampleGrid& grid, std::span<const SampleView> views, std::size_t a,
+                  std::size_t b) {
   const RayHit &hit_a = grid.traced.hits[a], &hit_b = grid.traced.hits[b];
   if (hit_a.object != hit_b.object) return Refine::kSilhouette;
   if (hit_a.object == kNoObject) return Refine::kNo;
-  // Occlusion: the neighbour lies off this sample's tangent plane by more than the distance between samples.
+  // Occlusion: one lies off the other's tangent plane by more than the distance between samples.
   const float step = hit_a.t * frame.camera.pixel_angle / static_cast<float>(grid.n);
-  const Vec3 across = grid.views[b].position - grid.views[a].position;
-  if (std::abs(dot(across, grid.views[a].geometric_normal)) > step) return Refine::kSilhouette;
-  return grid.views[a].chart != grid.views[b].chart ? Refine::kSeam : Refine::kNo;
+  const Vec3 across = views[b].position - views[a].position;
+  const float off_plane =
+      std::max(std::abs(dot(across, views[a].geometric_normal)), std::abs(dot(across, views[b].geometric_normal)));
+  if (off_plane > step) return Refine::kSilhouette;
+  return views[a].chart != views[b].chart ? Refine::kSeam : Refine::kNo;
 }
 
-/// The dearest reason among the samples of a pixel and their neighbours.
-Refine refinement(const TileJob& job, const SampleGrid& grid, int pixel_i, int pixel_j) {
-  Refine reason = Refine::kNo;
-  for (int j = pixel_j; j < pixel_j + grid.n; ++j)
-    for (int i = pixel_i; i < pixel_i + grid.n; ++i) {
-      const std::size_t here = grid.index(i, j);
-      for (const std::size_t there :
-           {grid.index(i + 1, j), grid.index(i, j + 1), grid.index(i - 1, j), grid.index(i, j - 1)})
-        reason = std::max(reason, difference(*job.frame, grid, here, there));
-      const std::uint32_t object = grid.traced.hits[here].object;
-      if (object != kNoObject && (*job.supersampled)[object]) return Refine::kSupersample;
+/// By sample, the dearest reason that it or one of its neighbours gives.
+std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
+  const std::vector<SampleView> views = view_grid(*job.frame, grid);
+  std::vector<Refine> reasons(views.size(), Refine::kNo);
+  const auto compare = [&](std::size_t a, std::size_t b) {
+    const Refine reason = difference(*job.frame, grid, views, a, b);
+    reasons[a] = std::max(reasons[a], reason);
+    reasons[b] = std::max(reasons[b], reason);
+  };
+  for (int j = 0; j < grid.height; ++j)
+    for (int i = 0; i < grid.width; ++i) {
+      const std::size_t k = static_cast<std::size_t>(j) * grid.width + i;
+      if (i + 1 < grid.width) compare(k, k + 1);
+      if (j + 1 < grid.height) compare(k, k + grid.width);
+      const std::uint32_t object = grid.traced.hits[k].object;
+      if (object != kNoObject && (*job.supersampled)[object]) reasons[k] = Refine::kSupersample;
     }
-  return reason;
+  return reasons;
 }
 
 /// Rays a side of a refined pixel.
@@ -85,12 +97,15 @@ int refined_rays(Refine reason, Quality quality) {
   return 0;
 }
 
-void keep_sample(const SampleGrid& grid, std::size_t k, std::uint32_t pixel, TracedSamples& kept) {
-  CameraSample sample = grid.traced.samples[k];
-  sample.pixel = pixel;
-  kept.samples.push_back(sample);
-  kept.rays.push_back(grid.traced.rays[k]);
-  kept.hits.push_back(grid.traced.hits[k]);
+/// Rays a side of every pixel before refinement; original may ask for a fixed number.
+int rays_a_side(const RenderOptions& options, bool fixed) {
+  if (fixed) return strata_of(options.spp).rows;
+  return options.quality == Quality::kFast ? 1 : 2;
+}
+
+bool all_missed(const SampleGrid& grid) {
+  return std::all_of(grid.traced.hits.begin(), grid.traced.hits.end(),
+                     [](const RayHit& hit) { return hit.object == kNoObject; });
 }
 
 }  // namespace
@@ -98,26 +113,31 @@ void keep_sample(const SampleGrid& grid, std::size_t k, std::uint32_t pixel, Tra
 RenderCounts render_grid(const TileJob& job, Tile tile) {
   RenderCounts counts;
   const RenderOptions& options = *job.options;
-  const int given = options.method == Method::kOriginal ? strata_of(std::max(options.spp, 1)).rows : 0;
   const bool fixed = options.method == Method::kOriginal && options.spp > 0;
-  const int n = fixed ? given : options.quality == Quality::kFast ? 1 : 2;
+  const int n = rays_a_side(options, fixed);
   const SampleGrid grid = trace_grid(job, tile, n, counts);
+  const bool whole = fixed || all_missed(grid);  // no pixel needs refinement
+  const std::vector<Refine> reasons = whole ? std::vector<Refine>() : find_reasons(job, grid);
 
-  TracedSamples kept, refined;
+  std::vector<std::uint32_t> kept;
+  TracedSamples refined;
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
-      const std::uint32_t pixel = static_cast<std::uint32_t>(y) * job.image_width + x;
-      const int i0 = (x - tile.x0) * n, j0 = (y - tile.y0) * n;
-      const Refine reason = fixed ? Refine::kNo : refinement(job, grid, i0, j0);
+      const std::size_t corner = grid.index((x - tile.x0) * n, (y - tile.y0) * n);
+      Refine reason = Refine::kNo;
+      if (!whole)
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) reason = std::max(reason, reasons[corner + j * grid.width + i]);
       const int rays = refined_rays(reason, options.quality);
       counts.supersampled_pixels += reason == Refine::kSupersample;
       if (rays > n)
-        append_pixel_samples(pixel, job.image_width, rays, rays, 0, refined.samples);
+        append_pixel_samples(static_cast<std::uint32_t>(y) * job.image_width + x, job.image_width, rays, rays, 0,
+                             refined.samples);
       else
-        for (int j = j0; j < j0 + n; ++j)
-          for (int i = i0; i < i0 + n; ++i) keep_sample(grid, grid.index(i, j), pixel, kept);
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) kept.push_back(static_cast<std::uint32_t>(corner + j * grid.width + i));
     }
-  shade_samples(*job.frame, kept, job.rgb, counts);
+  shade_samples(*job.frame, grid.traced, kept, job.rgb, counts);
   trace_samples(*job.frame, refined, counts);
   shade_samples(*job.frame, refined, job.rgb, counts);
   return counts;

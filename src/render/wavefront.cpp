@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "render/hit_footprint.h"
@@ -37,19 +38,25 @@ struct Paths {
   const RayHit& hit(std::size_t i) const { return (layer ? layer->hits : traced.hits)[members[i]]; }
 };
 
-/// The indices of `hits`, sorted by object without changing the order on each: those on object o are at
+/// `members` of `hits`, sorted by object without changing the order on each: those on object o are at
 /// [starts[o], starts[o + 1]), misses at the end.
 struct ByObject {
   std::vector<std::uint32_t> indices, starts;
 };
-ByObject sort_by_object(std::span<const RayHit> hits, std::size_t objects) {
-  const auto slot = [&](const RayHit& hit) { return hit.object == kNoObject ? objects : hit.object; };
-  ByObject sorted{std::vector<std::uint32_t>(hits.size()), std::vector<std::uint32_t>(objects + 2, 0)};
-  for (const RayHit& hit : hits) ++sorted.starts[slot(hit) + 1];
+ByObject sort_by_object(std::span<const RayHit> hits, std::span<const std::uint32_t> members, std::size_t objects) {
+  const auto slot = [&](std::uint32_t i) { return std::min<std::size_t>(hits[i].object, objects); };
+  ByObject sorted{std::vector<std::uint32_t>(members.size()), std::vector<std::uint32_t>(objects + 2, 0)};
+  for (std::uint32_t i : members) ++sorted.starts[slot(i) + 1];
   for (std::size_t o = 0; o <= objects; ++o) sorted.starts[o + 1] += sorted.starts[o];
   std::vector<std::uint32_t> next(sorted.starts.begin(), sorted.starts.end() - 1);
-  for (std::uint32_t i = 0; i < hits.size(); ++i) sorted.indices[next[slot(hits[i])]++] = i;
+  for (std::uint32_t i : members) sorted.indices[next[slot(i)]++] = i;
   return sorted;
+}
+
+std::vector<std::uint32_t> all_indices(std::size_t count) {
+  std::vector<std::uint32_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0u);
+  return indices;
 }
 
 float offset_of(const Object& object) {
@@ -74,7 +81,7 @@ void place_hits(const FrameContext& frame, const Paths& paths, ShadingBatch& bat
     batch.to_viewer[i] = -direction;
     batch.turned[i] = dot(hit.geometric_normal, direction) > 0;
     if (batch.turned[i]) hit.normal = -hit.normal, hit.geometric_normal = -hit.geometric_normal;
-    batch.frames[i] = make_frame(hit.normal, hit.tangent);
+    batch.frames[i] = {hit.tangent, cross(hit.normal, hit.tangent), hit.normal};
     if (!paths.layer && !paths.traced.footprints.empty()) {
       batch.footprints[i] = paths.traced.footprints[paths.sample(i)];
       continue;
@@ -173,11 +180,12 @@ void shade_object(const FrameContext& frame, const Paths& paths, float* rgb, Ren
   }
 }
 
-/// Shades everything that one layer hit; what goes on lands in `onward`.
-void shade_layer(const FrameContext& frame, const TracedSamples& traced, const Layer* layer, float* rgb,
-                 RenderCounts& counts, std::vector<SampleView>* views, Layer& onward) {
+/// Shades what the paths `all` of one layer hit; what goes on lands in `onward`.
+void shade_layer(const FrameContext& frame, const TracedSamples& traced, const Layer* layer,
+                 std::span<const std::uint32_t> all, float* rgb, RenderCounts& counts, std::vector<SampleView>* views,
+                 Layer& onward) {
   const std::size_t objects = frame.scene->objects.size();
-  const ByObject sorted = sort_by_object(layer ? layer->hits : traced.hits, objects);
+  const ByObject sorted = sort_by_object(layer ? layer->hits : traced.hits, all, objects);
   const auto members = [&](std::size_t o) {
     return std::span(sorted.indices).subspan(sorted.starts[o], sorted.starts[o + 1] - sorted.starts[o]);
   };
@@ -228,18 +236,23 @@ void trace_samples(const FrameContext& frame, TracedSamples& traced, RenderCount
   counts.camera_rays += traced.rays.size();
 }
 
-void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
-                   std::vector<SampleView>* views) {
+void shade_samples(const FrameContext& frame, const TracedSamples& traced, std::span<const std::uint32_t> members,
+                   float* rgb, RenderCounts& counts, std::vector<SampleView>* views) {
   if (views) views->assign(traced.samples.size(), {});
   Layer layer, onward;
-  shade_layer(frame, traced, nullptr, rgb, counts, views, onward);
+  shade_layer(frame, traced, nullptr, members, rgb, counts, views, onward);
   for (int depth = 1; depth < kMaxLayers && !onward.rays.empty(); ++depth) {
     layer = std::exchange(onward, {});
     layer.hits.resize(layer.rays.size());
     frame.tracer->intersect(layer.rays, layer.hits);
     counts.camera_rays += layer.rays.size();
-    shade_layer(frame, traced, &layer, rgb, counts, views, onward);
+    shade_layer(frame, traced, &layer, all_indices(layer.rays.size()), rgb, counts, views, onward);
   }
+}
+
+void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
+                   std::vector<SampleView>* views) {
+  shade_samples(frame, traced, all_indices(traced.samples.size()), rgb, counts, views);
 }
 
 std::vector<Rgb> transmittance_along(const FrameContext& frame, std::vector<Ray> rays, std::span<const float> widths,

@@ -43,8 +43,11 @@ Ray camera_ray(const CameraRays& camera, const CameraSample& sample);
 /// Shoots the rays of `traced.samples`.
 void trace_samples(const FrameContext& frame, TracedSamples& traced, RenderCounts& counts);
 
-/// Adds every sample's light to `rgb` (three floats a pixel, row-major). `views`, if not null, receives one entry a
-/// sample.
+/// Adds the light of the samples `members` (indices into `traced`) to `rgb` (three floats a pixel, row-major). `views`,
+/// if not null, receives one entry a sample of `traced`.
+void shade_samples(const FrameContext& frame, const TracedSamples& traced, std::span<const std::uint32_t> members,
+                   float* rgb, RenderCounts& counts, std::vector<SampleView>* views = nullptr);
+/// The same for all samples.
 void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
                    std::vector<SampleView>* views = nullptr);
 

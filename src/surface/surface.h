@@ -33,7 +33,8 @@ struct HitCoordinates {
 
 /// The surface at a hit, object space. `dp_du`, `dp_dv`: change of position with the map's uv; `dn_du`, `dn_dv`: change
 /// of the interpolated unit normal with it. `normal` is the
-/// interpolated unit normal, `geometric_normal` the face's, both outward. `chart` tells disconnected parts of the map
+/// interpolated unit normal, `tangent` a unit vector
+/// perpendicular to it, `geometric_normal` the face's, both outward. `chart` tells disconnected parts of the map
 /// apart.
 struct SurfaceHit {
   Vec3 position, normal, geometric_normal, tangent, dp_du, dp_dv, dn_du, dn_dv;
