@@ -40,9 +40,7 @@ void parallel_pipeline(std::size_t count, const std::function<void(std::size_t, 
   tbb::parallel_pipeline(slots, source & work & sink);
 }
 
-std::size_t thread_count() {
-  return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-}
+std::size_t thread_count() { return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism); }
 
 struct ThreadLimit::Impl {
   tbb::global_control control;

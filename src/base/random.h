@@ -25,7 +25,9 @@ class Random {
   constexpr std::uint64_t next() { return hash64(state_++); }
   constexpr float next_float() { return unit_float(next()); }
   /// Uniform in [0, bound).
-  constexpr std::uint32_t below(std::uint32_t bound) { return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32); }
+  constexpr std::uint32_t below(std::uint32_t bound) {
+    return static_cast<std::uint32_t>(((next() >> 32) * bound) >> 32);
+  }
 
  private:
   std::uint64_t state_;

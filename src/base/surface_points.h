@@ -49,26 +49,10 @@ class Planes {
   float* operator[](int component) { return data_.data() + component * stride_; }
   const float* operator[](int component) const { return data_.data() + component * stride_; }
 
-  void set(std::size_t i, Vec3 v)
-    requires(N == 3)
-  {
-    (*this)[0][i] = v.x, (*this)[1][i] = v.y, (*this)[2][i] = v.z;
-  }
-  Vec3 get(std::size_t i) const
-    requires(N == 3)
-  {
-    return {(*this)[0][i], (*this)[1][i], (*this)[2][i]};
-  }
-  Rgb rgb(std::size_t i) const
-    requires(N == 3)
-  {
-    return {(*this)[0][i], (*this)[1][i], (*this)[2][i]};
-  }
-  void set(std::size_t i, Vec2 v)
-    requires(N == 2)
-  {
-    (*this)[0][i] = v.x, (*this)[1][i] = v.y;
-  }
+  void set(std::size_t i, Vec3 v) requires(N == 3) { (*this)[0][i] = v.x, (*this)[1][i] = v.y, (*this)[2][i] = v.z; }
+  Vec3 get(std::size_t i) const requires(N == 3) { return {(*this)[0][i], (*this)[1][i], (*this)[2][i]}; }
+  Rgb rgb(std::size_t i) const requires(N == 3) { return {(*this)[0][i], (*this)[1][i], (*this)[2][i]}; }
+  void set(std::size_t i, Vec2 v) requires(N == 2) { (*this)[0][i] = v.x, (*this)[1][i] = v.y; }
 
  private:
   std::size_t size_ = 0, stride_ = 0;
@@ -83,9 +67,7 @@ struct SurfacePoints {
   float time = 0;
 
   std::size_t size() const { return position.size(); }
-  void resize(std::size_t size) {
-    position.resize(size), normal.resize(size), tangent.resize(size), uv.resize(size);
-  }
+  void resize(std::size_t size) { position.resize(size), normal.resize(size), tangent.resize(size), uv.resize(size); }
 };
 
 }  // namespace redmap

@@ -33,9 +33,7 @@ struct Vec3 {
 constexpr float dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 constexpr float cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 constexpr float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+constexpr Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline float length(Vec2 a) { return std::sqrt(dot(a, a)); }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 /// Unit vector along `a`; the zero vector stays zero.

@@ -125,7 +125,7 @@ void read_part(Imf::MultiPartInputFile& file, Part part, const std::string& wher
 
 /// Throws unless the part is what make_header() makes.
 void check_header(const Imf::Header& header, Part part, int channels, Extent extent, const std::string& where) {
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   if (window.min != Imath::V2i(0, 0) || window.max != Imath::V2i(extent.width - 1, extent.height - 1))
     throw Error("{}: part {}: expected {}x{} texels like the other part", where, kPartNames[part], extent.width,
                 extent.height);
@@ -144,7 +144,7 @@ void check_header(const Imf::Header& header, Part part, int channels, Extent ext
 }
 
 Extent checked_extent(const Imf::Header& header, const std::string& where) {
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   const double width = 1.0 + window.max.x - window.min.x, height = 1.0 + window.max.y - window.min.y;
   if (!(width >= 1 && width <= kMaxWidth && height >= 1 && height <= kMaxHeight))
     throw Error("{}: expected 1x1 to {}x{} texels, found {}x{}", where, kMaxWidth, kMaxHeight, width, height);
