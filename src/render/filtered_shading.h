@@ -11,6 +11,7 @@ class FilteredShading : public ObjectShading {
       : base_extent_(base_extent), original_(make_shader_shading(std::move(shader))) {}
 
   void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const final;
+  bool needs_footprints() const final { return true; }
   void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints, float time,
                      Planes<3>& out) const final;
 

@@ -34,11 +34,11 @@ void require_same_surface(const Object& object, const ReductionMap& map) {
                 object.map_path.string());
 }
 
-std::vector<Tile> tiles_of(const Camera& camera) {
+std::vector<Tile> tiles_of(const Camera& camera, int size) {
   std::vector<Tile> tiles;
-  for (int y = 0; y < camera.height; y += kTileSize)
-    for (int x = 0; x < camera.width; x += kTileSize)
-      tiles.push_back({x, y, std::min(x + kTileSize, camera.width), std::min(y + kTileSize, camera.height)});
+  for (int y = 0; y < camera.height; y += size)
+    for (int x = 0; x < camera.width; x += size)
+      tiles.push_back({x, y, std::min(x + size, camera.width), std::min(y + size, camera.height)});
   return tiles;
 }
 
@@ -81,7 +81,7 @@ RenderedFrame Renderer::render(const Scene& scene, int frame) {
   const auto render_tile = options_.method == Method::kSupersample ? render_supersampled
                            : options_.method == Method::kPaper     ? render_paper
                                                                    : render_grid;
-  const std::vector<Tile> tiles = tiles_of(scene.camera);
+  const std::vector<Tile> tiles = tiles_of(scene.camera, tile_size(options_));
   std::vector<RenderCounts> counts(tiles.size());
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {

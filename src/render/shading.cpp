@@ -70,6 +70,8 @@ class ShaderShading : public ObjectShading {
       out.transmittance = Planes<3>(batch.size());
   }
 
+  bool needs_footprints() const override { return false; }
+
   void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint>, float time,
                      Planes<3>& out) const override {
     if (shader_->info().transmits)

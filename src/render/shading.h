@@ -49,6 +49,8 @@ class ObjectShading {
  public:
   virtual ~ObjectShading() = default;
   virtual void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const = 0;
+  /// Whether `footprints` are looked at; where not, they need not be there.
+  virtual bool needs_footprints() const = 0;
   /// Only the transmittance, for shadows: `footprints` of the shadow rays where they hit.
   virtual void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints, float time,
                              Planes<3>& out) const = 0;

@@ -8,8 +8,10 @@
 
 namespace redmap {
 
-/// Pixels a side: a wavefront of 4 096 samples at 2 x 2 rays stays in the second-level cache; 64 was no faster.
-inline constexpr int kTileSize = 32;
+/// Pixels a side: about 4 096 samples, a wavefront that stays in the second-level cache, whatever the method.
+inline int tile_size(const RenderOptions& options) {
+  return options.method != Method::kPaper && options.quality == Quality::kFast ? 64 : 32;
+}
 
 struct Tile {
   int x0, y0, x1, y1;  ///< pixels, end excluded

@@ -10,24 +10,34 @@ namespace {
 /// Why a pixel gets more rays, from the cheapest to the dearest.
 enum class Refine : std::uint8_t { kNo, kSeam, kSilhouette, kSupersample };
 
-/// The samples of a tile on a regular grid, n x n a pixel, with one more row and column of samples all around.
+/// The samples of a tile on a regular grid, n x n a pixel. With one sample a pixel there is one more row and column of
+/// samples all around, since a pixel is then told apart from its neighbours instead of within itself.
 struct SampleGrid {
-  int n, width, height;
+  int n, apron;
+  int width, height;  ///< samples, apron included
   TracedSamples traced;
 
-  std::size_t index(int i, int j) const { return static_cast<std::size_t>(j + 1) * width + (i + 1); }
+  /// Of the sample at column i and row j of the tile; the apron has -1. Samples stand in blocks of 4 x 2, since eight
+  /// rays that are traced together should be as close to each other as they can.
+  std::size_t index(int i, int j) const {
+    const int x = i + apron, y = j + apron;
+    return static_cast<std::size_t>((y / 2) * (padded_width() / 4) + x / 4) * 8 + (y % 2) * 4 + x % 4;
+  }
+  int padded_width() const { return (width + 3) / 4 * 4; }
+  int padded_height() const { return (height + 1) / 2 * 2; }
 };
 
 SampleGrid trace_grid(const TileJob& job, Tile tile, int n, RenderCounts& counts) {
-  SampleGrid grid{n, (tile.x1 - tile.x0) * n + 2, (tile.y1 - tile.y0) * n + 2, {}};
+  const int apron = n == 1 ? 1 : 0;
+  SampleGrid grid{n, apron, (tile.x1 - tile.x0) * n + 2 * apron, (tile.y1 - tile.y0) * n + 2 * apron, {}};
   const float step = 1.0f / static_cast<float>(n);
-  grid.traced.samples.reserve(static_cast<std::size_t>(grid.width) * grid.height);
-  for (int j = -1; j < grid.height - 1; ++j)
-    for (int i = -1; i < grid.width - 1; ++i) {
+  grid.traced.samples.resize(static_cast<std::size_t>(grid.padded_width()) * grid.padded_height());
+  for (int j = -apron; j < grid.padded_height() - apron; ++j)
+    for (int i = -apron; i < grid.padded_width() - apron; ++i) {
       const float x = static_cast<float>(tile.x0) + (static_cast<float>(i) + 0.5f) * step;
       const float y = static_cast<float>(tile.y0) + (static_cast<float>(j) + 0.5f) * step;
-      const int pixel = static_cast<int>(y) * job.image_width + static_cast<int>(x);  // not used around the tile
-      grid.traced.samples.push_back({static_cast<std::uint32_t>(pixel), x, y, step, step * step});
+      const int pixel = static_cast<int>(y) * job.image_width + static_cast<int>(x);  // not used in the apron
+      grid.traced.samples[grid.index(i, j)] = {static_cast<std::uint32_t>(pixel), x, y, step, step * step};
     }
   trace_samples(*job.frame, grid.traced, counts);
   return grid;
@@ -47,22 +57,27 @@ std::vector<SampleView> view_grid(const FrameContext& frame, const SampleGrid& g
   return views;
 }
 
+/// Sine of 30 degrees: neighbours seen across a larger angle are on different sheets of the surface.
+constexpr float kSteep = 0.5f;
+
 /// How two neighbouring samples differ.
 Refine difference(const FrameContext& frame, const SampleGrid& grid, std::span<const SampleView> views, std::size_t a,
                   std::size_t b) {
   const RayHit &hit_a = grid.traced.hits[a], &hit_b = grid.traced.hits[b];
   if (hit_a.object != hit_b.object) return Refine::kSilhouette;
   if (hit_a.object == kNoObject) return Refine::kNo;
-  // Occlusion: one lies off the other's tangent plane by more than the distance between samples.
+  // Occlusion: one lies off the other's tangent plane by more than the distance between samples, and steeply so;
+  // a surface that merely curves away from a grazing ray does not.
   const float step = hit_a.t * frame.camera.pixel_angle / static_cast<float>(grid.n);
   const Vec3 across = views[b].position - views[a].position;
   const float off_plane =
       std::max(std::abs(dot(across, views[a].geometric_normal)), std::abs(dot(across, views[b].geometric_normal)));
-  if (off_plane > step) return Refine::kSilhouette;
+  if (off_plane > step && off_plane > kSteep * length(across)) return Refine::kSilhouette;
   return views[a].chart != views[b].chart ? Refine::kSeam : Refine::kNo;
 }
 
-/// By sample, the dearest reason that it or one of its neighbours gives.
+/// By sample, the dearest reason that it and its neighbours of the same pixel give; of all neighbours, if it is alone
+/// in its pixel.
 std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
   const std::vector<SampleView> views = view_grid(*job.frame, grid);
   std::vector<Refine> reasons(views.size(), Refine::kNo);
@@ -71,11 +86,14 @@ std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
     reasons[a] = std::max(reasons[a], reason);
     reasons[b] = std::max(reasons[b], reason);
   };
+  // Whether samples i and i + 1 of a row or column have to agree.
+  const auto together = [&](int i, int count) { return grid.n == 1 ? i + 1 < count : (i + 1) % grid.n != 0; };
   for (int j = 0; j < grid.height; ++j)
     for (int i = 0; i < grid.width; ++i) {
-      const std::size_t k = static_cast<std::size_t>(j) * grid.width + i;
-      if (i + 1 < grid.width) compare(k, k + 1);
-      if (j + 1 < grid.height) compare(k, k + grid.width);
+      const int column = i - grid.apron, row = j - grid.apron;
+      const std::size_t k = grid.index(column, row);
+      if (together(i, grid.width)) compare(k, grid.index(column + 1, row));
+      if (together(j, grid.height)) compare(k, grid.index(column, row + 1));
       const std::uint32_t object = grid.traced.hits[k].object;
       if (object != kNoObject && (*job.supersampled)[object]) reasons[k] = Refine::kSupersample;
     }
@@ -88,7 +106,7 @@ int refined_rays(Refine reason, Quality quality) {
     case Refine::kSeam:
       return quality == Quality::kFast ? 2 : 3;
     case Refine::kSilhouette:
-      return quality == Quality::kFast ? 3 : 4;
+      return quality == Quality::kFast ? 2 : 4;
     case Refine::kSupersample:
       return 4;  // 16 samples, what the paper falls back to
     case Refine::kNo:
@@ -103,6 +121,15 @@ int rays_a_side(const RenderOptions& options, bool fixed) {
   return options.quality == Quality::kFast ? 1 : 2;
 }
 
+/// Adds the samples `from` to `to`, and their indices there to `members`: larger batches are cheaper to shade.
+void append(const TracedSamples& from, TracedSamples& to, std::vector<std::uint32_t>& members) {
+  for (std::size_t i = 0; i < from.samples.size(); ++i)
+    members.push_back(static_cast<std::uint32_t>(to.samples.size() + i));
+  to.samples.insert(to.samples.end(), from.samples.begin(), from.samples.end());
+  to.rays.insert(to.rays.end(), from.rays.begin(), from.rays.end());
+  to.hits.insert(to.hits.end(), from.hits.begin(), from.hits.end());
+}
+
 bool all_missed(const SampleGrid& grid) {
   return std::all_of(grid.traced.hits.begin(), grid.traced.hits.end(),
                      [](const RayHit& hit) { return hit.object == kNoObject; });
@@ -115,7 +142,7 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
   const RenderOptions& options = *job.options;
   const bool fixed = options.method == Method::kOriginal && options.spp > 0;
   const int n = rays_a_side(options, fixed);
-  const SampleGrid grid = trace_grid(job, tile, n, counts);
+  SampleGrid grid = trace_grid(job, tile, n, counts);
   const bool whole = fixed || all_missed(grid);  // no pixel needs refinement
   const std::vector<Refine> reasons = whole ? std::vector<Refine>() : find_reasons(job, grid);
 
@@ -123,11 +150,13 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
   TracedSamples refined;
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
-      const std::size_t corner = grid.index((x - tile.x0) * n, (y - tile.y0) * n);
+      const auto sample = [&, i0 = (x - tile.x0) * n, j0 = (y - tile.y0) * n](int i, int j) {
+        return grid.index(i0 + i, j0 + j);
+      };
       Refine reason = Refine::kNo;
       if (!whole)
         for (int j = 0; j < n; ++j)
-          for (int i = 0; i < n; ++i) reason = std::max(reason, reasons[corner + j * grid.width + i]);
+          for (int i = 0; i < n; ++i) reason = std::max(reason, reasons[sample(i, j)]);
       const int rays = refined_rays(reason, options.quality);
       counts.supersampled_pixels += reason == Refine::kSupersample;
       if (rays > n)
@@ -135,11 +164,11 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
                              refined.samples);
       else
         for (int j = 0; j < n; ++j)
-          for (int i = 0; i < n; ++i) kept.push_back(static_cast<std::uint32_t>(corner + j * grid.width + i));
+          for (int i = 0; i < n; ++i) kept.push_back(static_cast<std::uint32_t>(sample(i, j)));
     }
-  shade_samples(*job.frame, grid.traced, kept, job.rgb, counts);
   trace_samples(*job.frame, refined, counts);
-  shade_samples(*job.frame, refined, job.rgb, counts);
+  append(refined, grid.traced, kept);
+  shade_samples(*job.frame, grid.traced, kept, job.rgb, counts);
   return counts;
 }
 

@@ -63,7 +63,7 @@ float offset_of(const Object& object) {
   return kRayOffset * 0.5f * length(object.surface->upper() - object.surface->lower()) * object.transform.scale;
 }
 
-/// Places `paths` and their footprints.
+/// Places `paths` on their surface, normals turned towards the viewer.
 void place_hits(const FrameContext& frame, const Paths& paths, ShadingBatch& batch) {
   const std::uint32_t object = paths.hit(0).object;
   const Placement& placement = frame.tracer->placement(object);
@@ -72,25 +72,33 @@ void place_hits(const FrameContext& frame, const Paths& paths, ShadingBatch& bat
   batch.hits.resize(paths.size());
   frame.scene->objects[object].surface->complete(where, batch.hits);
 
-  const Vec3 eye = placement.point_object(frame.camera.origin);
   const std::size_t count = paths.size();
-  batch.turned.resize(count), batch.frames.resize(count), batch.footprints.resize(count), batch.to_viewer.resize(count);
+  batch.turned.resize(count), batch.frames.resize(count), batch.to_viewer.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     SurfaceHit& hit = batch.hits[i];
-    const Vec3 direction = placement.direction_object(paths.ray(i).direction);
-    batch.to_viewer[i] = -direction;
-    batch.turned[i] = dot(hit.geometric_normal, direction) > 0;
+    batch.to_viewer[i] = -placement.direction_object(paths.ray(i).direction);
+    batch.turned[i] = dot(hit.geometric_normal, batch.to_viewer[i]) < 0;
     if (batch.turned[i]) hit.normal = -hit.normal, hit.geometric_normal = -hit.geometric_normal;
     batch.frames[i] = {hit.tangent, cross(hit.normal, hit.tangent), hit.normal};
-    if (!paths.layer && !paths.traced.footprints.empty()) {
+  }
+}
+
+/// The footprints of placed hits.
+void find_footprints(const FrameContext& frame, const Paths& paths, ShadingBatch& batch) {
+  const Placement& placement = frame.tracer->placement(paths.hit(0).object);
+  const Vec3 eye = placement.point_object(frame.camera.origin);
+  const bool given = !paths.layer && !paths.traced.footprints.empty();
+  batch.footprints.resize(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (given) {
       batch.footprints[i] = paths.traced.footprints[paths.sample(i)];
       continue;
     }
     const CameraSample& sample = paths.traced.samples[paths.sample(i)];
     const DirectionDifferential world = direction_differential(frame.camera, sample.x, sample.y);
-    batch.footprints[i] =
-        camera_footprint(hit, direction, {placement.direction_object(world.dx), placement.direction_object(world.dy)},
-                         length(hit.position - eye), sample.extent);
+    batch.footprints[i] = camera_footprint(batch.hits[i], -batch.to_viewer[i],
+                                           {placement.direction_object(world.dx), placement.direction_object(world.dy)},
+                                           length(batch.hits[i].position - eye), sample.extent);
   }
 }
 
@@ -159,14 +167,15 @@ void shade_object(const FrameContext& frame, const Paths& paths, float* rgb, Ren
                   std::vector<SampleView>* views, Layer& onward) {
   ShadingBatch batch;
   batch.time = frame.scene->time_seconds;
+  const std::uint32_t object = paths.hit(0).object;
   place_hits(frame, paths, batch);
+  if (frame.shading[object]->needs_footprints()) find_footprints(frame, paths, batch);
   batch.lights.resize(frame.scene->lights.size());
   for (std::size_t l = 0; l < batch.lights.size(); ++l)
     light_hits(frame, paths, frame.scene->lights[l], batch, batch.lights[l], counts);
   if (views && !paths.layer) record_views(frame, paths, batch, *views);
 
   ShadedBatch shaded;
-  const std::uint32_t object = paths.hit(0).object;
   frame.shading[object]->shade(batch, shaded, counts);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     add_light(paths.traced.samples[paths.sample(i)], paths.throughput(i) * shaded.radiance.rgb(i), rgb);
