@@ -84,6 +84,7 @@ void run_bench_quality(BenchQualityOptions& options) {
 void add_bench_command(CLI::App& app) {
   CLI::App* bench_app = app.add_subcommand("bench", "Measure methods against each other");
   bench_app->require_subcommand(1);
+  add_bench_strip(*bench_app);
   auto options = std::make_shared<BenchQualityOptions>();
   bench::QualityOptions& quality = options->quality;
   CLI::App* sub =
