@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
+#include "base/lanes_math.h"
 #include "map/pyramid.h"
 
 #ifdef __AVX2__
@@ -78,46 +80,23 @@ LookupPlan plan_enclosing_square(const Footprint& f, Extent extent, int levels) 
 bool fully_covered(std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) { return (a & b & c & d) == 255; }
 bool fully_covered(float a, float b, float c, float d) { return a == 1 && b == 1 && c == 1 && d == 1; }
 
+lanes::Float load_lanes(const float* from) { return lanes::load(from); }
+lanes::Float load_lanes(const std::uint8_t* from) {
 #ifdef __AVX2__
-
-/// Eight floats, one register.
-struct Lanes {
-  __m256 v = _mm256_setzero_ps();
-  static Lanes load(const float* p) { return {_mm256_loadu_ps(p)}; }
-  static Lanes load(const std::uint8_t* p) {
-    return {_mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p))))};
-  }
-  /// Two short chains rather than one long: the sum over the taps waits for one addition each.
-  void add(const float (&w)[4], Lanes a, Lanes b, Lanes c, Lanes d) {
-    const __m256 ab = _mm256_fmadd_ps(_mm256_set1_ps(w[1]), b.v, _mm256_mul_ps(_mm256_set1_ps(w[0]), a.v));
-    const __m256 cd = _mm256_fmadd_ps(_mm256_set1_ps(w[3]), d.v, _mm256_mul_ps(_mm256_set1_ps(w[2]), c.v));
-    v = _mm256_add_ps(v, _mm256_add_ps(ab, cd));
-  }
-  void store_scaled(float s, const float* scales, float* out) const {
-    _mm256_store_ps(out, _mm256_mul_ps(_mm256_mul_ps(v, _mm256_load_ps(scales)), _mm256_set1_ps(s)));
-  }
-};
-
+  const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+  return (lanes::FloatRegister)_mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(bytes));
 #else
-
-/// Eight floats, for processors without AVX2.
-struct Lanes {
-  float v[kLanes] = {};
-  template <typename Component>
-  static Lanes load(const Component* p) {
-    Lanes lanes;
-    for (std::size_t i = 0; i < kLanes; ++i) lanes.v[i] = static_cast<float>(p[i]);
-    return lanes;
-  }
-  void add(const float (&w)[4], Lanes a, Lanes b, Lanes c, Lanes d) {
-    for (std::size_t i = 0; i < kLanes; ++i) v[i] += (w[0] * a.v[i] + w[1] * b.v[i]) + (w[2] * c.v[i] + w[3] * d.v[i]);
-  }
-  void store_scaled(float s, const float* scales, float* out) const {
-    for (std::size_t i = 0; i < kLanes; ++i) out[i] = v[i] * scales[i] * s;
-  }
-};
-
+  lanes::Float values;
+  for (std::size_t i = 0; i < kLanes; ++i) values.v[i] = static_cast<float>(from[i]);
+  return values;
 #endif
+}
+
+/// The first half of the lanes from `fine`, the second from `coarse`.
+lanes::Float halves(int fine, int coarse) {
+  const float f = static_cast<float>(fine), c = static_cast<float>(coarse);
+  return lanes::FloatRegister{f, f, f, f, c, c, c, c};
+}
 
 }  // namespace
 
@@ -144,38 +123,74 @@ LookupPlan plan_lookup(const Footprint& footprint, Extent extent, int levels, Lo
                                                   : plan_enclosing_square(footprint, extent, levels);
 }
 
+/// Four taps, made ready together on two levels: lanes 0 to 3 on the finer one, 4 to 7 on the coarser.
+template <typename Component>
+struct Pyramid<Component>::TapBlock {
+  static constexpr int kTaps = kLanes / 2;
+
+  alignas(32) std::array<float, kLanes> weight[4];  ///< of two texels side by side, and of the two below them
+  alignas(32) std::array<float, kLanes> total;      ///< of the four weights
+  alignas(32) std::array<std::int32_t, kLanes> x, y;
+};
+
 template <typename Component>
 struct Pyramid<Component>::Sum {
   float coverage = 0;
-  Lanes chunk[2];
+  lanes::Float upper[2] = {0.0f, 0.0f}, lower[2] = {0.0f, 0.0f};  ///< rows apart: half as long a chain of additions
 };
 
-/// `uv.x` is in [0, 1] where u wraps.
+template <typename Component>
+inline void Pyramid<Component>::place_taps(const LookupPlan& plan, int first, const Level& fine, const Level& coarse,
+                                           TapBlock& block) const {
+  using lanes::Float;
+  const Float index = Float(static_cast<float>(first)) + lanes::FloatRegister{0, 1, 2, 3, 0, 1, 2, 3};
+  const Float width = halves(fine.extent.width, coarse.extent.width);
+  const Float height = halves(fine.extent.height, coarse.extent.height);
+
+  Float u = Float(plan.first_uv.x) + Float(plan.step_uv.x) * index;
+  if (wraps_u_) u = u - lanes::floor(u);
+  Float x = u * width - 0.5f;
+  if (wraps_u_) x = lanes::select(x < 0.0f, x + width, x);
+  x = lanes::clamp(x, 0.0f, wraps_u_ ? width : width - 1.0f);
+  const Float y =
+      lanes::clamp((Float(plan.first_uv.y) + Float(plan.step_uv.y) * index) * height - 0.5f, 0.0f, height - 1.0f);
+  const Float left = lanes::min(lanes::floor(x), width - 1.0f), top = lanes::floor(y);
+  const lanes::Int x0(left), y0(top);
+  std::memcpy(block.x.data(), &x0.v, sizeof x0.v);
+  std::memcpy(block.y.data(), &y0.v, sizeof y0.v);
+
+  const Float part = lanes::FloatRegister{1, 1, 1, 1, 0, 0, 0, 0} +
+                     lanes::FloatRegister{-1, -1, -1, -1, 1, 1, 1, 1} * Float(plan.coarse_part).v;
+  const Float right_part = x - left, lower = part * (y - top), upper = part - lower;
+  const Float weight[4] = {upper - upper * right_part, upper * right_part, lower - lower * right_part,
+                           lower * right_part};
+  for (int i = 0; i < 4; ++i) lanes::store(block.weight[i].data(), weight[i]);
+  lanes::store(block.total.data(), (weight[0] + weight[1]) + (weight[2] + weight[3]));
+}
+
+/// The last row's texels have nothing but zero weights below them: what is read there does not matter.
 template <typename Component>
 template <int kChunks, bool kUseCoverage>
-inline void Pyramid<Component>::add_tap(const Level& level, Vec2 uv, float part, Sum& sum) const {
-  const float width = static_cast<float>(level.extent.width), height = static_cast<float>(level.extent.height);
-  float x = uv.x * width - 0.5f;
-  x = wraps_u_ ? x + (x < 0 ? width : 0.0f) : std::min(std::max(x, 0.0f), width - 1);
-  const float y = std::min(std::max(uv.y * height - 0.5f, 0.0f), height - 1);
-  const int x0 = std::min(static_cast<int>(x), level.extent.width - 1), y0 = static_cast<int>(y);
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-
-  // Two texels side by side, and the two below them.
+inline void Pyramid<Component>::add_tap(const Level& level, int lane, TapBlock& block, Sum& sum) const {
   const int stride = texel_stride_;
-  const Component* a = data_.data() + level.offset + y0 * level.row_stride + static_cast<std::size_t>(x0) * stride;
-  const Component* c = y0 + 1 < level.extent.height ? a + level.row_stride : a;
-  const float upper = part * (1 - fy), lower = part * fy;
-  float weight[4] = {upper * (1 - fx), upper * fx, lower * (1 - fx), lower * fx};
+  const Component* a =
+      data_.data() + level.offset + block.y[lane] * level.row_stride + static_cast<std::size_t>(block.x[lane]) * stride;
+  const Component* c = a + level.row_stride;
+  auto& weight = block.weight;
   if (kUseCoverage && !fully_covered(a[0], a[stride], c[0], c[stride])) {
-    weight[0] *= kComponentStep * static_cast<float>(a[0]), weight[1] *= kComponentStep * static_cast<float>(a[stride]);
-    weight[2] *= kComponentStep * static_cast<float>(c[0]), weight[3] *= kComponentStep * static_cast<float>(c[stride]);
+    weight[0][lane] *= kComponentStep * static_cast<float>(a[0]);
+    weight[1][lane] *= kComponentStep * static_cast<float>(a[stride]);
+    weight[2][lane] *= kComponentStep * static_cast<float>(c[0]);
+    weight[3][lane] *= kComponentStep * static_cast<float>(c[stride]);
+    block.total[lane] = (weight[0][lane] + weight[1][lane]) + (weight[2][lane] + weight[3][lane]);
   }
-  sum.coverage += (weight[0] + weight[1]) + (weight[2] + weight[3]);
+  sum.coverage += block.total[lane];
   for (int i = 0; i < kChunks; ++i) {
     const int channel = 1 + i * static_cast<int>(kLanes);
-    sum.chunk[i].add(weight, Lanes::load(a + channel), Lanes::load(a + stride + channel), Lanes::load(c + channel),
-                     Lanes::load(c + stride + channel));
+    sum.upper[i] += lanes::Float(weight[0][lane]) * load_lanes(a + channel);
+    sum.lower[i] += lanes::Float(weight[2][lane]) * load_lanes(c + channel);
+    sum.upper[i] += lanes::Float(weight[1][lane]) * load_lanes(a + stride + channel);
+    sum.lower[i] += lanes::Float(weight[3][lane]) * load_lanes(c + stride + channel);
   }
 }
 
@@ -185,17 +200,22 @@ FilteredTexel Pyramid<Component>::gather(const LookupPlan& plan) const {
   const Level& fine = levels_[plan.level];
   const Level& coarse = levels_[plan.coarse_part > 0 ? plan.level + 1 : plan.level];
   Sum sum;
-  for (int i = 0; i < plan.taps; ++i) {
-    Vec2 uv = plan.first_uv + plan.step_uv * static_cast<float>(i);
-    if (wraps_u_) uv.x -= std::floor(uv.x);
-    if (plan.coarse_part < 1) add_tap<kChunks, kUseCoverage>(fine, uv, 1 - plan.coarse_part, sum);
-    if (plan.coarse_part > 0) add_tap<kChunks, kUseCoverage>(coarse, uv, plan.coarse_part, sum);
+  TapBlock block;
+  for (int first = 0; first < plan.taps; first += TapBlock::kTaps) {
+    place_taps(plan, first, fine, coarse, block);
+    const int taps = std::min(TapBlock::kTaps, plan.taps - first);
+    if (plan.coarse_part < 1)
+      for (int i = 0; i < taps; ++i) add_tap<kChunks, kUseCoverage>(fine, i, block, sum);
+    if (plan.coarse_part > 0)
+      for (int i = 0; i < taps; ++i) add_tap<kChunks, kUseCoverage>(coarse, TapBlock::kTaps + i, block, sum);
   }
   // Both chunks are stored, so that nothing has to be cleared first.
   FilteredTexel result;
   result.coverage = kUseCoverage ? std::min(1.0f, sum.coverage / static_cast<float>(plan.taps)) : 0.0f;
-  const float scale = sum.coverage > 0 ? kComponentStep / sum.coverage : 0.0f;
-  for (int i = 0; i < 2; ++i) sum.chunk[i].store_scaled(scale, &scales_[i * kLanes], &result.channel[i * kLanes]);
+  const lanes::Float scale = sum.coverage > 0 ? kComponentStep / sum.coverage : 0.0f;
+  for (int i = 0; i < 2; ++i)
+    lanes::store(&result.channel[i * kLanes],
+                 (sum.upper[i] + sum.lower[i]) * lanes::load(&scales_[i * kLanes]) * scale);
   return result;
 }
 

@@ -11,7 +11,7 @@
 namespace redmap {
 namespace {
 
-/// Components read at once by the lookup, kept readable past the last texel.
+/// Components read at once by the lookup, kept readable past the last texel and past the row below it.
 constexpr std::size_t kTail = kMaxChannels;
 
 /// Bytes a texel: a multiple of four, so that few texels straddle cache lines. Floats are left tight.
@@ -133,7 +133,7 @@ void Pyramid<Component>::allocate(Extent base, int channels, bool wraps_u) {
     offset += row_stride * e.height;
     if (e == Extent{1, 1}) break;
   }
-  data_.resize(offset + kTail);
+  data_.resize(offset + levels_[0].row_stride + kTail);
 }
 
 template <typename Component>

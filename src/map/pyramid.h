@@ -115,6 +115,7 @@ class Pyramid {
     std::size_t offset = 0;      ///< of texel (0, 0), in components
     std::size_t row_stride = 0;  ///< in components: one texel more than the width
   };
+  struct TapBlock;
   struct Sum;
 
   static constexpr float kComponentStep = std::is_same_v<Component, float> ? 1.0f : 1.0f / 255.0f;
@@ -127,8 +128,9 @@ class Pyramid {
   void allocate(Extent base, int channels, bool wraps_u);
   void store(int level, const BaseLevel& texels);
   void fill_uncovered(int level);
+  void place_taps(const LookupPlan& plan, int first, const Level& fine, const Level& coarse, TapBlock& block) const;
   template <int kChunks, bool kUseCoverage>
-  void add_tap(const Level& level, Vec2 uv, float part, Sum& sum) const;
+  void add_tap(const Level& level, int lane, TapBlock& block, Sum& sum) const;
   template <int kChunks, bool kUseCoverage>
   FilteredTexel gather(const LookupPlan& plan) const;
   FilteredTexel filter(const LookupPlan& plan) const;

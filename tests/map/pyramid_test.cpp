@@ -95,6 +95,24 @@ TEST(Lookup, Fast_EqualsSlow_ForBytesAndFloatsOfAnyWidth) {
   expect_fast_equals_slow<float>({60, 90}, 2, false, LookupFilter::kEnclosingSquare);
 }
 
+TEST(Lookup, Batch_EqualsSingle_BitForBit) {
+  for (int channels : {3, 16}) {
+    const Pyramid<std::uint8_t> pyramid(random_base({128, 64}, channels, true, 17));
+    Random random(19);
+    std::vector<Footprint> footprints(3 * kLookupBatch + 5);
+    for (Footprint& f : footprints) f = random_footprint(random, 1.0f);
+    for (LookupFilter how : {LookupFilter::kVarianceMatched, LookupFilter::kEnclosingSquare}) {
+      std::vector<FilteredTexel> batch(footprints.size());
+      pyramid.lookup(footprints, how, batch);
+      for (std::size_t i = 0; i < footprints.size(); ++i) {
+        const FilteredTexel single = pyramid.lookup(footprints[i], how);
+        ASSERT_EQ(batch[i].coverage, single.coverage);
+        ASSERT_EQ(batch[i].channel, single.channel);
+      }
+    }
+  }
+}
+
 TEST(Lookup, FootprintBelowATexel_ReadsTheBaseBilinearly) {
   BaseLevel base({4, 4}, 1, false);
   for (int i = 0; i < 16; ++i) base.values[i] = static_cast<float>(i), base.coverage[i] = 1;
