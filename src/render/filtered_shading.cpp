@@ -39,6 +39,12 @@ void blend_into(Planes<3>& out, std::size_t i, Vec3 value, float part) {
 }  // namespace
 
 float FilteredShading::filtered_part(const Footprint& footprint) const {
+  const float width = static_cast<float>(base_extent_.width), height = static_cast<float>(base_extent_.height);
+  const Vec2 x{footprint.duv_dx.x * width, footprint.duv_dx.y * height};
+  const Vec2 y{footprint.duv_dy.x * width, footprint.duv_dy.y * height};
+  // The major axis lies between the longer side and the root of the sides' squares: most footprints are decided there.
+  if (std::max(dot(x, x), dot(y, y)) >= kBlendEnd * kBlendEnd) return 1;
+  if (dot(x, x) + dot(y, y) <= kBlendBegin * kBlendBegin) return 0;
   const float major = footprint_axes(footprint, base_extent_).major;
   return std::clamp((major - kBlendBegin) / (kBlendEnd - kBlendBegin), 0.0f, 1.0f);
 }
