@@ -11,6 +11,7 @@ trap 'rm -rf "$work"' EXIT
 
 cmake --install "$build" --prefix "$work/prefix" >"$work/install.log" || { cat "$work/install.log"; exit 1; }
 
+[[ -f README.md ]] || { echo "README.md: expected it with the sample of the library, found no such file"; exit 1; }
 mkdir "$work/sample"
 awk '/^<!-- sample -->$/ { marked = 1; next }
      marked && /^```cpp$/ { inside = 1; next }

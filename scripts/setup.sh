@@ -2,8 +2,8 @@
 # Installs what redmap is built and checked with, from Debian's packages. Does nothing where all of it is there.
 set -euo pipefail
 
-packages=(cmake ninja-build g++ ccache mold libembree-dev libopenexr-dev libopenimageio-dev libtbb-dev libeigen3-dev
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libtinyobjloader-dev libtinygltf-dev libstb-dev
+packages=(cmake ninja-build pkg-config g++ ccache mold libembree-dev libopenexr-dev libopenimageio-dev libtbb-dev
+  libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libtinyobjloader-dev libtinygltf-dev libstb-dev
   libgtest-dev libbenchmark-dev libmeshoptimizer-dev clang-format clang-tidy git python3)
 command -v npm >/dev/null || packages+=(nodejs npm)
 
