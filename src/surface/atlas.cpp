@@ -19,13 +19,15 @@ namespace {
 
 // Tuned on the 10k bunny and the 20k dragon: less compactness makes ragged charts that pack badly, more cuts across
 // flat places; after 15 rounds charts hardly move.
-constexpr double kCompactness = 0.3, kSplitCompactness = 1.0;
+constexpr double kCompactness = 3, kSplitCompactness = 10;
 constexpr int kRounds = 15, kSplitRounds = 8;
 
-// Of the area that a chart was to have: below the first it is merged where it can be, up to the second, as long as the
-// stretch stays below the third. On the 20k dragon this leaves 100 of 376 charts at an L2 stretch of 1.036; up to the
-// usual limit of 1.25 it would leave 87 at 1.052.
-constexpr double kSmall = 0.25, kLarge = 2, kMergedL2Stretch = 1.1;
+// Charts are merged up to this many times the area that a chart was to have, as long as the stretch stays below the
+// limit. On the 20k dragon this leaves 48 charts at an L2 stretch of 1.022, with two thirds of the boundary.
+constexpr double kLarge = 6, kMergedL2Stretch = 1.1;
+
+// Large meshes start from more charts, since flattening one takes more than proportionally longer.
+constexpr int kFacesPerChart = 5000;
 
 void check(const TriangleMesh& mesh, const FaceGraph& graph, const AtlasOptions& options) {
   if (mesh.triangles.empty()) throw Error("atlas: expected a mesh with triangles, found none");
@@ -81,7 +83,7 @@ void write_uv(const std::vector<FlatChart>& charts, const Packing& packing, int 
   for (std::size_t i = 0; i < charts.size(); ++i) {
     const auto first = static_cast<std::uint32_t>(mesh.uv.size());
     for (const Eigen::Vector2d& point : charts[i].plane) {
-      const Eigen::Vector2d uv = place(charts[i], packing.placements[i], packing.scale, point) / resolution;
+      const Eigen::Vector2d uv = place(packing.placements[i], packing.scale, point) / resolution;
       mesh.uv.push_back({static_cast<float>(uv.x()), static_cast<float>(uv.y())});
     }
     for (std::size_t f = 0; f < charts[i].faces.size(); ++f)
@@ -109,11 +111,11 @@ AtlasReport measure(const std::vector<FlatChart>& charts, const TriangleMesh& me
 AtlasReport unwrap(TriangleMesh& mesh, const AtlasOptions& options) {
   const FaceGraph graph = make_face_graph(mesh);
   check(mesh, graph, options);
-  const std::vector<int> labels = grow_charts(graph, options.charts, kCompactness, kRounds);
+  const int count = std::max(options.charts, graph.size() / kFacesPerChart);
+  const std::vector<int> labels = grow_charts(graph, count, kCompactness, kRounds);
   std::vector<FlatChart> charts = flatten_all(mesh, graph, connected_parts(graph, labels), options.max_l2_stretch);
-  const double chart_area = std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0) / options.charts;
-  merge_small_charts(mesh, graph, kSmall * chart_area, kLarge * chart_area,
-                     std::min(kMergedL2Stretch, options.max_l2_stretch), charts);
+  const double area = std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0);
+  merge_charts(mesh, graph, kLarge * area / count, std::min(kMergedL2Stretch, options.max_l2_stretch), charts);
   const std::optional<Packing> packing =
       pack_charts(charts, options.resolution, options.cell_texels, options.gutter_texels);
   if (!packing)

@@ -9,7 +9,7 @@
 namespace redmap {
 
 struct AtlasOptions {
-  int charts = 40;               ///< charts to start from; topology and stretch add more
+  int charts = 40;               ///< to start from, at least; topology and stretch add more, merging takes some back
   double max_l2_stretch = 1.25;  ///< a chart that stretches more is split (Sander et al. 2001)
   int resolution = 1024;         ///< texels across for which the gutter is sized
   int cell_texels = 4;           ///< packing grid: charts never share a cell, so levels up to log2(cell) are clean

@@ -13,7 +13,7 @@ namespace redmap {
 namespace {
 
 /// Raise the number at the end whenever unwrap() gives other uv for the same input.
-constexpr std::uint64_t kMagic = 0x32534C5441'4D52;  // "RMATLS2"
+constexpr std::uint64_t kMagic = 0x33534C5441'4D52;  // "RMATLS3"
 
 struct Header {
   std::uint64_t magic = kMagic, key = 0, uv_count = 0, triangle_count = 0;

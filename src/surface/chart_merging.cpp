@@ -17,13 +17,13 @@ class Merger {
   }
 
   /// Whether anything was joined.
-  bool pass(double small_area, double largest_area, double max_l2_stretch) {
+  bool pass(double largest_area, double max_l2_stretch) {
     std::vector<int> order(charts_.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return charts_[a].area < charts_[b].area; });
     bool merged = false;
     for (const int chart : order) {
-      if (charts_[chart].faces.empty() || charts_[chart].area >= small_area) continue;
+      if (charts_[chart].faces.empty()) continue;
       for (const int neighbour : best_neighbours(chart)) {
         if (charts_[chart].area + charts_[neighbour].area > largest_area) continue;
         if (!join(chart, neighbour, max_l2_stretch)) continue;
@@ -79,12 +79,12 @@ class Merger {
 
 }  // namespace
 
-void merge_small_charts(const TriangleMesh& mesh, const FaceGraph& graph, double small_area, double largest_area,
-                        double max_l2_stretch, std::vector<FlatChart>& charts) {
+void merge_charts(const TriangleMesh& mesh, const FaceGraph& graph, double largest_area, double max_l2_stretch,
+                  std::vector<FlatChart>& charts) {
   // On the 20k dragon the fourth pass finds nothing more.
   constexpr int kPasses = 3;
   Merger merger(mesh, graph, charts);
-  for (int i = 0; i < kPasses && merger.pass(small_area, largest_area, max_l2_stretch); ++i) {
+  for (int i = 0; i < kPasses && merger.pass(largest_area, max_l2_stretch); ++i) {
   }
   std::erase_if(charts, [](const FlatChart& chart) { return chart.faces.empty(); });
 }

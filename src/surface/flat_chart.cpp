@@ -1,12 +1,13 @@
-// Cutting, flattening (least squares conformal maps, Levy et al. 2002) and checking of one chart.
+// Cutting, flattening and checking of one chart.
 #include "surface/flat_chart.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+
+#include "surface/chart_flattening.h"
 
 namespace redmap {
 
@@ -16,101 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 double cross2(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// Edges with a triangle on one side only, in the triangle's direction.
-std::vector<std::pair<int, int>> boundary_edges(const FlatChart& chart) {
-  std::vector<std::array<int, 4>> edges;  // low, high, from, to
-  for (const auto& t : chart.triangles)
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), a, b});
-    }
-  std::sort(edges.begin(), edges.end());
-  std::vector<std::pair<int, int>> boundary;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto same = [&](std::size_t j) {
-      return j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1];
-    };
-    if (!same(i + 1) && !(i > 0 && same(i - 1))) boundary.emplace_back(edges[i][2], edges[i][3]);
-  }
-  return boundary;
-}
-
-/// A triangle in its own plane: corner 0 at the origin, corner 1 at (x1, 0), corner 2 at (x2, y2).
-struct LocalTriangle {
-  double x1, x2, y2;
-};
-
-LocalTriangle local_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const double x1 = (b - a).norm();
-  const Vector3d x = (b - a) / x1;
-  return {x1, x.dot(c - a), x.cross(c - a).norm()};
-}
-
-/// The vertices that LSCM holds fast: two far apart on the boundary.
-std::pair<int, int> find_pins(const FlatChart& chart, const std::vector<std::pair<int, int>>& boundary) {
-  const auto farthest = [&](int from) {
-    return std::max_element(boundary.begin(), boundary.end(),
-                            [&](const auto& a, const auto& b) {
-                              return (chart.positions[a.first] - chart.positions[from]).squaredNorm() <
-                                     (chart.positions[b.first] - chart.positions[from]).squaredNorm();
-                            })
-        ->first;
-  };
-  const int first = farthest(boundary.front().first);
-  return {first, farthest(first)};
-}
-
-bool solve_conformal(FlatChart& chart) {
-  const std::vector<std::pair<int, int>> boundary = boundary_edges(chart);
-  if (boundary.size() < 3) return false;
-  const auto [pin_0, pin_1] = find_pins(chart, boundary);
-  const double distance = (chart.positions[pin_0] - chart.positions[pin_1]).norm();
-  if (pin_0 == pin_1 || !(distance > 0)) return false;
-  const int vertices = static_cast<int>(chart.positions.size()), triangles = static_cast<int>(chart.triangles.size());
-  const int free = vertices - 2;
-  std::vector<int> column(vertices, -1);
-  for (int v = 0, next = 0; v < vertices; ++v)
-    if (v != pin_0 && v != pin_1) column[v] = next++;
-
-  // Two rows a triangle: the real and imaginary part of sum_j W_j U_j / sqrt(2 area) = 0 (equation 6 there).
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * triangles);
-  for (int t = 0; t < triangles; ++t) {
-    const auto& corners = chart.triangles[t];
-    const LocalTriangle local =
-        local_triangle(chart.positions[corners[0]], chart.positions[corners[1]], chart.positions[corners[2]]);
-    if (!(local.x1 > 0 && local.y2 > 0)) continue;
-    const double scale = 1 / std::sqrt(local.x1 * local.y2);
-    const Vector2d weights[3] = {{local.x2 - local.x1, local.y2}, {-local.x2, -local.y2}, {local.x1, 0}};
-    for (int k = 0; k < 3; ++k) {
-      const double re = weights[k].x() * scale, im = weights[k].y() * scale;
-      const int c = column[corners[k]];
-      if (c >= 0) {
-        entries.insert(entries.end(),
-                       {{t, c, re}, {t, free + c, -im}, {triangles + t, c, im}, {triangles + t, free + c, re}});
-      } else if (corners[k] == pin_1) {
-        right[t] -= re * distance, right[triangles + t] -= im * distance;
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> matrix(2 * triangles, 2 * free);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseMatrix<double> normal_matrix = matrix.transpose() * matrix;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal_matrix);
-  if (solver.info() != Eigen::Success) return false;
-  const Eigen::VectorXd solution = solver.solve(matrix.transpose() * right);
-  if (!solution.allFinite()) return false;
-  chart.plane.assign(vertices, Vector2d::Zero());
-  chart.plane[pin_1] = {distance, 0};
-  for (int v = 0; v < vertices; ++v)
-    if (column[v] >= 0) chart.plane[v] = {solution[column[v]], solution[free + column[v]]};
-  return true;
-}
-
-double plane_area(const FlatChart& chart, const std::array<int, 3>& t) {
-  return 0.5 * cross2(chart.plane[t[1]] - chart.plane[t[0]], chart.plane[t[2]] - chart.plane[t[0]]);
-}
 
 struct Rectangle {
   Vector2d lower, upper;
@@ -126,13 +32,18 @@ Rectangle bounds_turned(const FlatChart& chart, const Eigen::Rotation2Dd& turn) 
   return r;
 }
 
-/// True area, the smallest of 30 rectangles, corner at the origin. False if nothing has area.
-bool normalize_plane(FlatChart& chart) {
+/// False if nothing has area.
+bool scale_to_area(FlatChart& chart) {
   double area = 0;
   for (const auto& t : chart.triangles) area += plane_area(chart, t);
   if (!(area > 0)) return false;
   const double scale = std::sqrt(chart.area / area);
   for (Vector2d& p : chart.plane) p *= scale;
+  return true;
+}
+
+/// The smallest of 30 rectangles, corner at the origin.
+void turn_to_smallest_rectangle(FlatChart& chart) {
   constexpr int kTurns = 30;  // 3 degrees apart over a quarter turn: within 1 % of the smallest rectangle
   Eigen::Rotation2Dd best(0);
   for (int i = 1; i < kTurns; ++i) {
@@ -141,7 +52,6 @@ bool normalize_plane(FlatChart& chart) {
   }
   const Vector2d lower = bounds_turned(chart, best).lower;
   for (Vector2d& p : chart.plane) p = best * p - lower;
-  return true;
 }
 
 /// Whether the segments (a, b) and (c, d) have a point in common.
@@ -180,6 +90,35 @@ double squared_l2_stretch(const FlatChart& chart, const std::array<int, 3>& t, d
 }
 
 }  // namespace
+
+std::vector<std::pair<int, int>> boundary_edges(const FlatChart& chart) {
+  std::vector<std::array<int, 4>> edges;  // low, high, from, to
+  for (const auto& t : chart.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a, b});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::pair<int, int>> boundary;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto same = [&](std::size_t j) {
+      return j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1];
+    };
+    if (!same(i + 1) && !(i > 0 && same(i - 1))) boundary.emplace_back(edges[i][2], edges[i][3]);
+  }
+  return boundary;
+}
+
+std::array<Vector2d, 3> local_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const double x1 = (b - a).norm();
+  if (!(x1 > 0)) return {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()};
+  const Vector3d x = (b - a) / x1;
+  return {Vector2d::Zero(), Vector2d(x1, 0), Vector2d(x.dot(c - a), x.cross(c - a).norm())};
+}
+
+double plane_area(const FlatChart& chart, const std::array<int, 3>& t) {
+  return 0.5 * cross2(chart.plane[t[1]] - chart.plane[t[0]], chart.plane[t[2]] - chart.plane[t[0]]);
+}
 
 FlatChart cut_chart(const TriangleMesh& mesh, const FaceGraph& graph, std::vector<int> faces) {
   FlatChart chart;
@@ -232,12 +171,15 @@ bool is_disk(const FlatChart& chart) {
 
 bool flatten(FlatChart& chart) {
   if (chart.triangles.size() == 1) {
-    const LocalTriangle local = local_triangle(chart.positions[0], chart.positions[1], chart.positions[2]);
-    chart.plane = {{0, 0}, {local.x1, 0}, {local.x2, local.y2}};
-  } else if (!solve_conformal(chart)) {
-    return false;
+    const auto& [a, b, c] = local_triangle(chart.positions[0], chart.positions[1], chart.positions[2]);
+    chart.plane = {a, b, c};
+  } else {
+    if (!solve_conformal(chart) || !scale_to_area(chart)) return false;
+    relax_isometric(chart);
   }
-  return normalize_plane(chart);
+  if (!scale_to_area(chart)) return false;
+  turn_to_smallest_rectangle(chart);
+  return true;
 }
 
 bool is_sound(FlatChart& chart, double max_l2_stretch) {

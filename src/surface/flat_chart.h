@@ -21,11 +21,22 @@ struct FlatChart {
 /// Cuts `faces` out along every edge whose other face is not among them: vertices are shared across inner edges only.
 FlatChart cut_chart(const TriangleMesh& mesh, const FaceGraph& graph, std::vector<int> faces);
 
+/// Edges with a triangle on one side only: from and to local vertices, in the triangle's direction.
+std::vector<std::pair<int, int>> boundary_edges(const FlatChart& chart);
+
+/// A triangle in its own plane: corner 0 at the origin, corner 1 on the x axis. All zero if the first two are one.
+std::array<Eigen::Vector2d, 3> local_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                              const Eigen::Vector3d& c);
+
+/// Area of a triangle in the plane, negative where it is flipped.
+double plane_area(const FlatChart& chart, const std::array<int, 3>& triangle);
+
 /// Whether the chart has the topology of a disk.
 bool is_disk(const FlatChart& chart);
 
-/// Fills `plane`: least squares conformal maps (Levy et al. 2002) scaled to the true area and turned to the smallest
-/// rectangle, with its corner at the origin. A single triangle keeps its shape. False if there is no sound solution.
+/// Fills `plane`: conformal, then as isometric as possible (chart_flattening.h), scaled to the true area and turned to
+/// the smallest rectangle, with its corner at the origin. A single triangle keeps its shape. False if there is no sound
+/// solution.
 bool flatten(FlatChart& chart);
 
 /// Whether every triangle of `plane` keeps its orientation, no two overlap and the L2 stretch stays below the limit.

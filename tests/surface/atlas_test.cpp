@@ -66,6 +66,21 @@ TEST(Atlas, NoTexelHasTwoOwners_AtTwiceTheResolution) {
   }
 }
 
+/// The models of the tables in docs/atlas.md are fetched, not committed: nothing to test where they are not.
+TEST(Atlas, BunnyAndDragonFillTwoThirds_WithoutStretchFlipOrOverlap) {
+  const std::pair<const char*, double> cases[] = {{"bunny_10k.obj", 1.02}, {"dragon_20k.obj", 1.05}};
+  for (const auto& [name, max_l2_stretch] : cases) {
+    const std::filesystem::path path = std::filesystem::path(REDMAP_MODELS) / name;
+    if (!std::filesystem::exists(path)) continue;
+    TriangleMesh mesh = read_mesh(path);
+    const AtlasReport report = unwrap(mesh);
+    EXPECT_LE(report.l2_stretch, max_l2_stretch) << name;
+    EXPECT_GE(report.packing, 0.65) << name;
+    EXPECT_EQ(report.flips, 0) << name;
+    for (const auto& owners : triangles_of_texels(mesh, 2 * AtlasOptions{}.resolution)) ASSERT_LE(owners.size(), 1u);
+  }
+}
+
 TEST(Atlas, ChartsNeverShareACell_NorComeNearerThanTheGutter) {
   for (auto& [name, mesh] : closed_meshes()) {
     const AtlasOptions options{.charts = 12, .resolution = 256, .cell_texels = 4, .gutter_texels = 1};
@@ -116,17 +131,17 @@ TEST(Atlas, EveryTriangleHasItsShareOfTheSquare_Unflipped) {
 
 TEST(Atlas, AnIcosahedronIsUnfoldedWithoutStretch) {
   TriangleMesh mesh = icosphere(0);
-  const AtlasReport report = unwrap(mesh, {.charts = 20, .resolution = 512});
-  EXPECT_EQ(report.charts, 20);
+  const AtlasReport report = unwrap(mesh, {.charts = 20, .max_l2_stretch = 1 + 1e-6, .resolution = 512});
+  EXPECT_LT(report.charts, 20);
   EXPECT_NEAR(report.l2_stretch, 1, 1e-6);
 }
 
 TEST(Atlas, StretchLimitIsKept_BySplitting) {
   TriangleMesh loose = bumpy_sphere(3), tight = loose;
   const AtlasReport few = unwrap(loose, {.charts = 2, .max_l2_stretch = 3});
-  const AtlasReport many = unwrap(tight, {.charts = 2, .max_l2_stretch = 1.05});
+  const AtlasReport many = unwrap(tight, {.charts = 2, .max_l2_stretch = 1.001});
   EXPECT_GT(many.charts, few.charts);
-  EXPECT_LE(many.l2_stretch, 1.05);
+  EXPECT_LE(many.l2_stretch, 1.001);
 }
 
 TEST(Atlas, UnsharedVerticesGiveTheSameCharts) {

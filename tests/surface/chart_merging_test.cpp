@@ -25,7 +25,7 @@ TEST(ChartMerging, CrumbsBecomeFewSoundCharts_WithEveryFaceInOne) {
   const FaceGraph graph = make_face_graph(mesh);
   std::vector<FlatChart> charts = crumbs(mesh, graph);
   const double area = std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0);
-  merge_small_charts(mesh, graph, area / 20, area / 10, 1.25, charts);
+  merge_charts(mesh, graph, area / 10, 1.25, charts);
   EXPECT_LT(charts.size(), 60u);
   EXPECT_GE(charts.size(), 10u);
   std::vector<int> owners(graph.areas.size());
@@ -43,7 +43,7 @@ TEST(ChartMerging, NothingIsMergedAcrossTheStretchLimit) {
   const FaceGraph graph = make_face_graph(mesh);
   std::vector<FlatChart> charts = crumbs(mesh, graph);
   const double area = std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0);
-  merge_small_charts(mesh, graph, area, area, 1 + 1e-6, charts);
+  merge_charts(mesh, graph, area, 1 + 1e-6, charts);
   EXPECT_LT(charts.size(), 20u);
   for (const FlatChart& chart : charts) EXPECT_NEAR(chart.stretch_times_area / chart.area, 1, 3e-6);
 }
