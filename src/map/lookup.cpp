@@ -1,7 +1,5 @@
-// Filtering a footprint out of a pyramid: the plan (where the taps are) and the taps. The anisotropic plan matches the
-// variance of the footprint, docs/lookup.md; the isotropic one is section 5.3 of the paper.
+// Filtering a footprint out of a pyramid: the taps that its plan (map/lookup_plan.cpp) asks for.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -14,67 +12,6 @@
 
 namespace redmap {
 namespace {
-
-/// Footprints longer than this are widened instead: 16 is what texture hardware does, and beyond it errors no longer
-/// fall.
-constexpr float kMaxAnisotropy = 16;
-/// Distance of two taps in texels of their level, at most: with the tent and box of a tap, 1.5 leaves no ripple that
-/// shows.
-constexpr float kTapSpacing = 1.5f;
-/// A bilinear tap on box-filtered texels of width c has variance c^2 / 12 + c^2 / 6 = c^2 / 4; a box of width m has
-/// m^2 / 12. They match at c = m / sqrt 3.
-constexpr float kTexelPerMinor = 0.57735027f;
-
-/// Taps that kMaxAnisotropy and kTapSpacing lead to at most: 16 sqrt 3 / 1.5 + .5, rounded up.
-constexpr int kMaxTaps = 19;
-/// 1 / sqrt(n^2 - 1), the spacing of n taps of unit spread: looked up, since the square root would be waited for.
-const std::array<float, kMaxTaps + 1> kTapSpread = [] {
-  std::array<float, kMaxTaps + 1> spread{};
-  for (int n = 2; n <= kMaxTaps; ++n) spread[n] = 1 / std::sqrt(static_cast<float>(n * n - 1));
-  return spread;
-}();
-
-/// floor(log2(x)) for finite x >= 1.
-int floor_log2(float x) { return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23) - 127; }
-
-/// 2^exponent, for exponents of levels.
-float power_of_two(int exponent) { return std::bit_cast<float>(static_cast<std::uint32_t>(127 + exponent) << 23); }
-
-bool is_finite(const Footprint& f) {
-  return std::isfinite(f.uv.x + f.uv.y + f.duv_dx.x + f.duv_dx.y + f.duv_dy.x + f.duv_dy.y);
-}
-
-LookupPlan plan_variance_matched(const Footprint& footprint, Extent extent, int levels) {
-  const FootprintAxes axes = footprint_axes(footprint, extent);
-  const float texel = std::max(1.0f, kTexelPerMinor * std::max(axes.minor, axes.major / kMaxAnisotropy));
-
-  // What the tap's own width leaves of the major axis is covered by n taps: variance h^2 (n^2 - 1) / 12 = rest^2 / 12.
-  const float rest = std::sqrt(std::max(0.0f, axes.major * axes.major - 3 * texel * texel));
-  LookupPlan plan;
-  plan.first_uv = footprint.uv;
-  if (rest > 0.5f * texel) {
-    plan.taps = std::clamp(static_cast<int>(std::ceil(rest / (kTapSpacing * texel) + 0.5f)), 2, kMaxTaps);
-    plan.step_uv = axes.major_direction_uv * (rest / axes.major * kTapSpread[plan.taps]);
-    plan.first_uv = footprint.uv - plan.step_uv * (0.5f * static_cast<float>(plan.taps - 1));
-  }
-
-  // Between two levels the variances add up to that of the texel wanted: (1 - f) c0^2 + f (2 c0)^2 = c^2.
-  plan.level = std::min(floor_log2(texel), std::max(0, levels - 2));
-  const float ratio = texel * power_of_two(-plan.level);
-  plan.coarse_part = levels > 1 ? std::clamp((ratio * ratio - 1) / 3, 0.0f, 1.0f) : 0.0f;
-  return plan;
-}
-
-LookupPlan plan_enclosing_square(const Footprint& f, Extent extent, int levels) {
-  const float across = (std::abs(f.duv_dx.x) + std::abs(f.duv_dy.x)) * static_cast<float>(extent.width);
-  const float down = (std::abs(f.duv_dx.y) + std::abs(f.duv_dy.y)) * static_cast<float>(extent.height);
-  const float level = std::clamp(std::log2(std::max({across, down, 1.0f})), 0.0f, static_cast<float>(levels - 1));
-  LookupPlan plan;
-  plan.first_uv = f.uv;
-  plan.level = std::min(static_cast<int>(level), std::max(0, levels - 2));
-  plan.coarse_part = level - static_cast<float>(plan.level);
-  return plan;
-}
 
 /// Most taps: their weights need no coverage.
 bool fully_covered(std::uint8_t a, std::uint8_t b, std::uint8_t c, std::uint8_t d) { return (a & b & c & d) == 255; }
@@ -99,29 +36,6 @@ lanes::Float halves(int fine, int coarse) {
 }
 
 }  // namespace
-
-FootprintAxes footprint_axes(const Footprint& footprint, Extent extent) {
-  const float width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
-  const Vec2 x{footprint.duv_dx.x * width, footprint.duv_dx.y * height};
-  const Vec2 y{footprint.duv_dy.x * width, footprint.duv_dy.y * height};
-
-  // Larger eigenvalue and its vector of J J^T; the smaller singular value from the determinant, which stays precise.
-  const float uu = x.x * x.x + y.x * y.x, uv = x.x * x.y + y.x * y.y, vv = x.y * x.y + y.y * y.y;
-  const float half_difference = 0.5f * (uu - vv);
-  const float root = std::sqrt(half_difference * half_difference + uv * uv);
-  const float major = std::sqrt(0.5f * (uu + vv) + root);
-  if (!(major > 0)) return {};
-  Vec2 direction = half_difference >= 0 ? Vec2{half_difference + root, uv} : Vec2{uv, root - half_difference};
-  const float norm = length(direction);
-  direction = norm > 0 ? direction * (major / norm) : Vec2{major, 0};
-  return {major, std::abs(cross(x, y)) / major, {direction.x / width, direction.y / height}};
-}
-
-LookupPlan plan_lookup(const Footprint& footprint, Extent extent, int levels, LookupFilter filter) {
-  if (!is_finite(footprint)) return {{0.5f, 0.5f}, {}, 1, std::max(0, levels - 2), levels > 1 ? 1.0f : 0.0f};
-  return filter == LookupFilter::kVarianceMatched ? plan_variance_matched(footprint, extent, levels)
-                                                  : plan_enclosing_square(footprint, extent, levels);
-}
 
 /// Four taps, made ready together on two levels: lanes 0 to 3 on the finer one, 4 to 7 on the coarser.
 template <typename Component>
@@ -255,10 +169,9 @@ void Pyramid<Component>::lookup(std::span<const Footprint> footprints, LookupFil
   for (std::size_t first = 0; first < footprints.size(); first += kLookupBatch) {
     const std::size_t count = std::min(kLookupBatch, footprints.size() - first);
     // All texels are asked for before the first is waited for.
-    for (std::size_t i = 0; i < count; ++i) {
-      plans[i] = plan_lookup(footprints[first + i], extent(0), levels(), how);
-      prefetch(plans[i]);
-    }
+    const auto some = std::span(plans).first(count);
+    plan_lookups(footprints.subspan(first, count), extent(0), levels(), how, some);
+    for (const LookupPlan& plan : some) prefetch(plan);
     for (std::size_t i = 0; i < count; ++i) out[first + i] = filter(plans[i]);
   }
 }

@@ -53,6 +53,9 @@ struct LookupPlan {
 /// `extent` is that of level 0 of a pyramid of `levels` levels. Never names a level that is not there; a footprint that
 /// is not finite gets the centre of the coarsest level.
 LookupPlan plan_lookup(const Footprint& footprint, Extent extent, int levels, LookupFilter filter);
+/// The same for many footprints, eight at a time. `out` has the size of `footprints`.
+void plan_lookups(std::span<const Footprint> footprints, Extent extent, int levels, LookupFilter filter,
+                  std::span<LookupPlan> out);
 
 /// What a pyramid is built from: row-major texels, channels interleaved, coverage 0 to 1. Values where coverage is nil
 /// do not matter.
