@@ -10,6 +10,7 @@
 #include <immintrin.h>
 
 // The x86-64 vector ABI's names (libmvec declares them only to the vectoriser): d = AVX2, N = no mask, 8 lanes.
+// NOLINTBEGIN(bugprone-reserved-identifier, readability-identifier-naming)
 extern "C" {
 __m256 _ZGVdN8v_sinf(__m256);
 __m256 _ZGVdN8v_cosf(__m256);
@@ -20,6 +21,7 @@ __m256 _ZGVdN8v_log2f(__m256);
 __m256 _ZGVdN8v_atanf(__m256);
 __m256 _ZGVdN8vv_atan2f(__m256, __m256);
 }
+// NOLINTEND(bugprone-reserved-identifier, readability-identifier-naming)
 #endif
 
 namespace redmap::lanes {
