@@ -37,7 +37,8 @@ std::filesystem::path map_path(const Options& options, const Object& object) {
 std::vector<Object> objects_to_bake(const Options& options, const SceneFile& file) {
   if (options.objects.empty()) return file.at(1).objects;
   std::vector<Object> objects;
-  for (const std::string& name : options.objects) objects.push_back(file.object(name));
+  for (const std::string& name : options.objects)
+    for (Object& object : file.objects(name)) objects.push_back(std::move(object));
   return objects;
 }
 
@@ -81,6 +82,7 @@ nlohmann::json bake_object(const Options& options, const Object& object) {
 void bake_scene(const Options& options) {
   const ThreadLimit limit(static_cast<std::size_t>(options.common.threads));
   const SceneFile file = SceneFile::load(options.scene, options.overrides);
+  print_remarks(file, options.common);
   nlohmann::json maps = nlohmann::json::array();
   std::set<std::filesystem::path> written;
   for (const Object& object : objects_to_bake(options, file)) {

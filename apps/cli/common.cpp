@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "scene/scene_file.h"
 
 namespace redmap::cli {
 
@@ -80,6 +81,12 @@ const std::atomic<bool>& interrupt_flag() { return interrupt_requested; }
 
 void stop_if_interrupted() {
   if (interrupted()) throw Interrupted();
+}
+
+void print_remarks(const SceneFile& file, const CommonOptions& options) {
+  for (const std::string& line : file.remarks()) fmt::print(stderr, "{}\n", line);
+  if (!options.verbose) return;
+  for (const std::string& line : file.assumptions()) fmt::print(stderr, "{}\n", line);
 }
 
 void write_json(const std::filesystem::path& path, const nlohmann::json& value) {

@@ -10,6 +10,10 @@
 #include <string>
 #include <vector>
 
+namespace redmap {
+class SceneFile;
+}
+
 namespace redmap::cli {
 
 struct CommonOptions {
@@ -57,6 +61,9 @@ bool interrupted();
 const std::atomic<bool>& interrupt_flag();
 /// Throws Interrupted if the flag is set.
 void stop_if_interrupted();
+
+/// Says on stderr what was wrong with a scene's meshes, and with -v what was taken for granted about them.
+void print_remarks(const SceneFile& file, const CommonOptions& options);
 
 /// Writes `value`, indented, through a temporary name. Does nothing for an empty path. Throws Error.
 void write_json(const std::filesystem::path& path, const nlohmann::json& value);

@@ -34,6 +34,7 @@ void add_commands(CLI::App& app) {
   add_bench_command(app);
   add_list_command(app);
   add_mesh_command(app);
+  add_unwrap_command(app);
 }
 
 /// The deepest subcommand that was named, for "see redmap bake --help".

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "commands.h"
 #include "common.h"
+#include "mesh_input.h"
 #include "surface/atlas.h"
 #include "surface/mesh.h"
 #include "surface/prepare.h"
@@ -18,7 +19,8 @@ namespace redmap::cli {
 namespace {
 
 struct Options {
-  std::string in, out;
+  MeshInput in;
+  std::string out;
   PrepareOptions prepare;
   AtlasOptions atlas;
   bool unwrap = false;
@@ -27,15 +29,26 @@ struct Options {
 
 /// A mesh that is only converted or unwrapped keeps its vertices and normals as they are.
 bool asks_for_preparation(const PrepareOptions& options) {
-  return options.triangles > 0 || options.weld_distance > 0 || options.largest_part || options.unit_sphere;
+  return options.triangles > 0 || options.repair || options.weld_distance > 0 || options.largest_part ||
+         options.unit_sphere;
 }
 
-void report_preparation(const PrepareReport& report, bool verbose, nlohmann::json& json) {
+void report_repair(const RepairReport& report, nlohmann::json& json) {
+  fmt::print("repair: turned {} triangles, split off {} vertices, filled {} holes with {} triangles\n",
+             report.turned_triangles, report.split_vertices, report.filled_holes, report.filling_triangles);
+  json["repair"] = {{"turned_triangles", report.turned_triangles},
+                    {"split_vertices", report.split_vertices},
+                    {"filled_holes", report.filled_holes},
+                    {"filling_triangles", report.filling_triangles}};
+}
+
+void report_preparation(const PrepareReport& report, bool repaired, bool verbose, nlohmann::json& json) {
   if (verbose)
     fmt::print(stderr,
                "welded {} vertices, dropped {} triangles, subdivided {} times; {} boundary and {} non-manifold edges\n",
                report.welded_vertices, report.dropped_triangles, report.subdivisions, report.boundary_edges,
                report.non_manifold_edges);
+  if (repaired) report_repair(report.repair, json);
   json["prepare"] = {{"welded_vertices", report.welded_vertices},
                      {"dropped_triangles", report.dropped_triangles},
                      {"subdivisions", report.subdivisions},
@@ -51,13 +64,10 @@ void report_atlas(const AtlasReport& report, nlohmann::json& json) {
 
 void run(const Options& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
-  MeshReport read;
-  TriangleMesh mesh = read_mesh(options.in, &read);
-  if (read.zero_area_triangles > 0)
-    fmt::print(stderr, "{}: dropped {} zero-area triangles\n", options.in, read.zero_area_triangles);
-  nlohmann::json json = {{"zero_area_triangles", read.zero_area_triangles}};
+  nlohmann::json json;
+  TriangleMesh mesh = read_mesh_input(options.in, json);
   if (asks_for_preparation(options.prepare))
-    report_preparation(prepare(mesh, options.prepare), options.common.verbose, json);
+    report_preparation(prepare(mesh, options.prepare), options.prepare.repair, options.common.verbose, json);
   stop_if_interrupted();
   if (options.unwrap) report_atlas(unwrap(mesh, options.atlas), json);
   stop_if_interrupted();
@@ -77,12 +87,14 @@ void add_mesh_command(CLI::App& app) {
       "  redmap mesh bunny.ply -o bunny_10k.obj --triangles 10000 --unit-sphere\n"
       "  redmap mesh part.glb -o part.obj --unwrap");
   auto options = std::make_shared<Options>();
-  sub->add_option("mesh", options->in, "the mesh to read: .obj, .ply, .gltf or .glb")->required();
+  add_mesh_input(*sub, options->in);
   sub->add_option("-o,--output", options->out, "the mesh to write: .obj or .ply")->required();
   sub->add_option("--triangles", options->prepare.triangles, "subdivide and simplify to about as many triangles");
   sub->add_option("--weld", options->prepare.weld_distance,
                   "make vertices one that are this near, as a part of the bounding box's diagonal")
       ->check(CLI::Range(0.0, 0.1));
+  sub->add_flag("--repair", options->prepare.repair,
+                "turn triangles the same way, split what is not manifold, fill small holes");
   sub->add_flag("--largest-part", options->prepare.largest_part, "keep only the largest connected part");
   sub->add_flag("--unit-sphere", options->prepare.unit_sphere, "move and scale it into the unit sphere at the origin");
   sub->add_flag("--unwrap", options->unwrap, "make an atlas");

@@ -20,6 +20,9 @@ std::vector<ObjectData> load_object_data(const Scene& scene, Method method) {
       throw Error("object '{}' has no reduction map at {}: run `redmap bake` on the scene first", object.name,
                   object.map_path.string());
     data[i].map = std::make_shared<const ReductionMap>(read_map(object.map_path));
+    // The paper's mean normals are stored with the map, which knows the mesh at rest only.
+    if (method == Method::kPaper && object.surface->pose_fingerprint() != object.surface->fingerprint())
+      throw Error("object '{}' is deformed (rest_mesh): method paper stores normals at rest, use another", object.name);
     if (method == Method::kPaper)
       data[i].normals =
           std::make_shared<const Pyramid<float>>(build_normal_pyramid(*object.surface, data[i].map->size));

@@ -116,6 +116,7 @@ void report_maps(const Scene& scene, const std::vector<ObjectData>& data) {
 void run_render(const RenderCommandOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
   const SceneFile file = SceneFile::load(options.scene, options.overrides);
+  print_remarks(file, options.common);
   const std::vector<int> frames = frames_to_render(options, file);
   const RenderOptions render = render_options(options);
   const std::uint64_t settings = settings_fingerprint(render, file.at(frames.front()));

@@ -35,14 +35,15 @@ void add_lit(const float* weight, const Planes<3>& radiance, const Planes<3>& ir
 
 namespace {
 
-SurfacePoints surface_points(std::span<const SurfaceHit> hits, float time) {
+/// Shaders see the surface at rest; `turned` (or nothing): hits whose normal looks the other way.
+SurfacePoints surface_points(std::span<const SurfaceHit> hits, std::span<const std::uint8_t> turned, float time) {
   SurfacePoints points;
   points.resize(hits.size());
   points.time = time;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    points.position.set(i, hits[i].position);
-    points.normal.set(i, hits[i].normal);
-    points.tangent.set(i, hits[i].tangent);
+    points.position.set(i, hits[i].rest.position);
+    points.normal.set(i, !turned.empty() && turned[i] ? -hits[i].rest.normal : hits[i].rest.normal);
+    points.tangent.set(i, hits[i].rest.tangent);
     points.uv.set(i, hits[i].uv);
   }
   return points;
@@ -53,7 +54,7 @@ class ShaderShading : public ObjectShading {
   explicit ShaderShading(std::shared_ptr<const Shader> shader) : shader_(std::move(shader)) {}
 
   void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
-    const auto patterns = shader_->bind(surface_points(batch.hits, batch.time));
+    const auto patterns = shader_->bind(surface_points(batch.hits, batch.turned, batch.time));
     if (shader_->info().emits)
       patterns->emission(out.radiance);
     else
@@ -75,7 +76,7 @@ class ShaderShading : public ObjectShading {
   void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint>, float time,
                      Planes<3>& out) const override {
     if (shader_->info().transmits)
-      shader_->bind(surface_points(hits, time))->transmittance(out);
+      shader_->bind(surface_points(hits, {}, time))->transmittance(out);
     else
       out = Planes<3>(hits.size());
   }

@@ -22,6 +22,9 @@ Scene animate(const Scene& scene, const Animation& animation, int frame) {
         animation.turntable->degrees_per_frame * static_cast<float>(frame - 1);
   moment.time_seconds = static_cast<float>(frame - 1) / animation.frames_per_second;
   for (Light& light : moment.lights) light.to_light = normalized(light.to_light);
+  // Tiles of a mesh stand where the first of them does.
+  for (std::size_t i = 1; i < moment.objects.size(); ++i)
+    if (is_further_tile(moment, i)) moment.objects[i].transform = moment.objects[i - 1].transform;
   return moment;
 }
 

@@ -25,7 +25,7 @@ struct AnimationTrack {
 
 /// An object that turns about y, from its rotation at frame 1.
 struct Turntable {
-  std::size_t object = 0;  ///< index into Scene::objects
+  std::size_t object = 0;  ///< index into Scene::objects; of a mesh in tiles the first, whom the others follow
   float degrees_per_frame = 1;
 };
 

@@ -47,7 +47,7 @@ void append_light_channels(const Light& light, std::size_t i, std::vector<Channe
 
 void append_object_channels(const Object& object, std::size_t i, std::vector<Channel>& channels) {
   using Kind = Channel::Kind;
-  const std::string prefix = "object." + object.name;
+  const std::string prefix = "object." + object.declared_name;
   channels.push_back({prefix + ".translate", Kind::kPlace,
                       [i](Scene& scene, Vec3 value) { scene.objects[i].transform.translate = value; }});
   channels.push_back({prefix + ".rotate", Kind::kPlace,
@@ -59,7 +59,8 @@ void append_object_channels(const Object& object, std::size_t i, std::vector<Cha
 std::vector<Channel> channels_of(const Scene& scene) {
   std::vector<Channel> channels = camera_channels();
   for (std::size_t i = 0; i < scene.lights.size(); ++i) append_light_channels(scene.lights[i], i, channels);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) append_object_channels(scene.objects[i], i, channels);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (!is_further_tile(scene, i)) append_object_channels(scene.objects[i], i, channels);
   return channels;
 }
 
@@ -116,8 +117,8 @@ Turntable read_turntable(const toml::table& table, const Scene& scene) {
   const float degrees = reader.number("degrees_per_frame", 1, kAnyNumber);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (scene.objects[i].name == name) return {i, degrees};
-    names.push_back(scene.objects[i].name);
+    if (scene.objects[i].declared_name == name) return {i, degrees};
+    names.push_back(scene.objects[i].declared_name);
   }
   reader.complain("object",
                   fmt::format("expected an object of the scene, found \"{}\"{}", name, suggestion(name, names)));

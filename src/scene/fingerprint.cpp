@@ -39,7 +39,7 @@ void add_light(Hasher& hasher, const Light& light) {
 }
 
 void add_object(Hasher& hasher, const Object& object, float time_seconds) {
-  hasher.add(object.surface->fingerprint());
+  hasher.add(object.surface->pose_fingerprint());
   hasher.add(object.transform.translate), hasher.add(object.transform.rotate_degrees);
   hasher.add(object.transform.scale);
   const ShaderInfo& info = object.shader->info();

@@ -1,7 +1,5 @@
 #include "scene/gltf_import.h"
 
-#include <tiny_gltf.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "surface/gltf_document.h"
 
 namespace redmap {
 
@@ -33,23 +32,6 @@ Eigen::Affine3d transform_of(const tinygltf::Node& node) {
   if (r.size() == 4) transform.rotate(Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized());
   if (s.size() == 3) transform.scale(Eigen::Vector3d(s[0], s[1], s[2]));
   return transform;
-}
-
-/// Pictures are no part of what is imported: left unread.
-bool skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-  return true;
-}
-
-tinygltf::Model load_model(const std::filesystem::path& path) {
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(skip_image, nullptr);
-  tinygltf::Model model;
-  std::string error, warning;
-  const bool is_sound = path.extension() == ".glb" ? loader.LoadBinaryFromFile(&model, &error, &warning, path.string())
-                                                   : loader.LoadASCIIFromFile(&model, &error, &warning, path.string());
-  std::replace(error.begin(), error.end(), '\n', ' ');
-  if (!is_sound) throw Error("{}: expected sound glTF, found: {}", path.string(), error);
-  return model;
 }
 
 class Importer {
@@ -131,7 +113,7 @@ class Importer {
 }  // namespace
 
 GltfImport import_gltf(const std::filesystem::path& path) {
-  const tinygltf::Model model = load_model(path);
+  const tinygltf::Model model = load_gltf(path, path.extension() == ".glb");
   return Importer(path, model).import();
 }
 

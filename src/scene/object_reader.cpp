@@ -5,8 +5,6 @@
 
 #include "base/error.h"
 #include "shader/shader.h"
-#include "surface/atlas.h"
-#include "surface/mesh.h"
 
 namespace redmap {
 
@@ -51,22 +49,52 @@ std::shared_ptr<const Shader> read_shader(const TableReader& object) {
   return at_key(object, "parameters", [&] { return make_library_shader(name, parameters); });
 }
 
-}  // namespace
+constexpr std::string_view kMeshKeys[] = {"rest_mesh", "part", "up", "unit", "uv", "uv_set"};
+constexpr int kMaxUvSet = 15;  // more than any file was seen to have
 
-std::shared_ptr<const Surface> ObjectReader::load_mesh(const TableReader& reader) {
-  const std::filesystem::path path = scene_folder_ / reader.text("mesh");
-  if (!std::filesystem::is_regular_file(path))
-    reader.complain("mesh", fmt::format("expected a mesh file, found no file {}", path.lexically_normal().string()));
-  auto& surface = meshes_[std::filesystem::weakly_canonical(path)];
-  if (surface) return surface;
-  return surface = at_key(reader, "mesh", [&] {
-           TriangleMesh mesh = read_mesh(path);
-           if (mesh.uv_triangles.empty()) unwrap_cached(mesh, scene_folder_ / "maps");
-           return make_mesh_surface(std::move(mesh));
-         });
+MeshUnits read_units(const TableReader& reader) {
+  MeshUnits units;
+  if (reader.has("up")) units.up = reader.choice("up", {"y", "z"}) == "z" ? UpAxis::kZ : UpAxis::kY;
+  if (!reader.has("unit")) return units;
+  units.unit = reader.text("unit");
+  at_key(reader, "unit", [&] { return metres_per(*units.unit); });
+  return units;
 }
 
-std::shared_ptr<const Surface> ObjectReader::read_surface(const TableReader& reader) {
+UvChoice read_uv_choice(const TableReader& reader) {
+  if (!reader.has("uv")) return UvChoice::kAuto;
+  const std::string choice = reader.choice("uv", {"auto", "file", "unwrap"});
+  return choice == "auto" ? UvChoice::kAuto : choice == "file" ? UvChoice::kFile : UvChoice::kUnwrap;
+}
+
+}  // namespace
+
+std::vector<LoadedMesh::Tile> ObjectReader::read_mesh_surfaces(const TableReader& reader) {
+  const auto file = [&](const char* key) -> std::filesystem::path {
+    if (!reader.has(key)) return {};
+    const std::filesystem::path path = scene_folder_ / reader.text(key);
+    if (!std::filesystem::is_regular_file(path))
+      reader.complain(key, fmt::format("expected a mesh file, found no file {}", path.lexically_normal().string()));
+    return path;
+  };
+  MeshRequest request;
+  request.mesh = file("mesh"), request.rest = file("rest_mesh");
+  if (reader.has("part")) request.part = reader.text("part");
+  request.units = read_units(reader);
+  request.uv = read_uv_choice(reader);
+  request.uv_set = reader.integer("uv_set", 0, 0, kMaxUvSet);
+  MeshRequest key = request;
+  key.mesh = std::filesystem::weakly_canonical(key.mesh), key.rest = std::filesystem::weakly_canonical(key.rest);
+  for (const auto& [known, tiles] : meshes_)
+    if (known == key) return tiles;
+  LoadedMesh loaded = at_key(reader, "mesh", [&] { return load_mesh(request, scene_folder_ / "maps"); });
+  for (const std::string& line : loaded.remarks) remarks_.push_back(reader.full_key("mesh") + ": " + line);
+  for (const std::string& line : loaded.assumptions) assumptions_.push_back(reader.full_key("mesh") + ": " + line);
+  meshes_.emplace_back(key, loaded.tiles);
+  return loaded.tiles;
+}
+
+std::vector<LoadedMesh::Tile> ObjectReader::read_surfaces(const TableReader& reader) {
   if (reader.has("mesh") == reader.has("surface"))
     reader.complain("mesh", reader.has("mesh")
                                 ? "expected either a mesh or a surface, found both"
@@ -74,27 +102,37 @@ std::shared_ptr<const Surface> ObjectReader::read_surface(const TableReader& rea
   if (reader.has("mesh")) {
     for (const char* key : {"radius", "height"})
       if (reader.has(key)) reader.complain(key, "expected only for a sphere or a cylinder, found it for a mesh");
-    return load_mesh(reader);
+    return read_mesh_surfaces(reader);
   }
   const bool is_sphere = reader.choice("surface", {"sphere", "cylinder"}) == "sphere";
+  for (const std::string_view key : kMeshKeys)
+    if (reader.has(key)) reader.complain(key, "expected only for a mesh, found it for a sphere or a cylinder");
   const float radius = reader.number("radius", 1, kPositive);
   if (is_sphere && reader.has("height"))
     reader.complain("height", "expected only for a cylinder, found it for a sphere");
-  return is_sphere ? make_sphere(radius) : make_cylinder(radius, reader.number("height", 2, kPositive));
+  return {{0, is_sphere ? make_sphere(radius) : make_cylinder(radius, reader.number("height", 2, kPositive))}};
 }
 
-Object ObjectReader::read(const std::string& name, const toml::table& table) {
+std::vector<Object> ObjectReader::read(const std::string& name, const toml::table& table) {
   const TableReader reader(table, "object." + name,
-                           {"surface", "radius", "height", "mesh", "shader", "parameters", "map", "map_size",
-                            "translate", "rotate", "scale"});
+                           {"surface", "radius", "height", "mesh", "rest_mesh", "part", "up", "unit", "uv", "uv_set",
+                            "shader", "parameters", "map", "map_size", "translate", "rotate", "scale"});
   Object object;
-  object.name = name;
+  object.name = object.declared_name = name;
   object.transform = read_transform(reader);
   object.map_size = reader.integer("map_size", 1024, 1, kMaxMapSize);
   object.map_path = scene_folder_ / (reader.has("map") ? reader.text("map") : "maps/" + name + ".exr");
   object.shader = read_shader(reader);
-  object.surface = read_surface(reader);
-  return object;
+  std::vector<Object> objects;
+  for (const LoadedMesh::Tile& tile : read_surfaces(reader)) {
+    objects.push_back(object);
+    objects.back().surface = tile.surface;
+    if (tile.number == 0) continue;
+    // NAME.1001, and its map with the number before the extension.
+    objects.back().name = fmt::format("{}.{}", name, tile.number);
+    objects.back().map_path.replace_extension(fmt::format(".{}{}", tile.number, object.map_path.extension().string()));
+  }
+  return objects;
 }
 
 }  // namespace redmap

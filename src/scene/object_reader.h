@@ -2,30 +2,37 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "scene/mesh_loader.h"
 #include "scene/scene.h"
 #include "scene/table_reader.h"
 
 namespace redmap {
 
-/// Reads objects, loading every mesh file once however many objects share it.
+/// Reads objects, loading every mesh once however many objects share it.
 class ObjectReader {
  public:
   /// `scene_folder`: what paths in the file are relative to, and the parent of the maps.
   explicit ObjectReader(std::filesystem::path scene_folder) : scene_folder_(std::move(scene_folder)) {}
 
-  /// Reads the table [object.NAME]. Throws Error.
-  Object read(const std::string& name, const toml::table& table);
+  /// Reads the table [object.NAME]: one object, or one for each tile of a mesh whose uv spread over several. Throws
+  /// Error.
+  std::vector<Object> read(const std::string& name, const toml::table& table);
+
+  /// What was said about the meshes: see LoadedMesh.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+  const std::vector<std::string>& assumptions() const { return assumptions_; }
 
  private:
-  std::shared_ptr<const Surface> read_surface(const TableReader& reader);
-  std::shared_ptr<const Surface> load_mesh(const TableReader& reader);
+  std::vector<LoadedMesh::Tile> read_surfaces(const TableReader& reader);
+  std::vector<LoadedMesh::Tile> read_mesh_surfaces(const TableReader& reader);
 
   std::filesystem::path scene_folder_;
-  std::map<std::filesystem::path, std::shared_ptr<const Surface>> meshes_;
+  std::vector<std::pair<MeshRequest, std::vector<LoadedMesh::Tile>>> meshes_;
+  std::vector<std::string> remarks_, assumptions_;
 };
 
 }  // namespace redmap

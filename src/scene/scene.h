@@ -39,7 +39,8 @@ struct Light {
 };
 
 struct Object {
-  std::string name;
+  std::string name;  ///< as the scene file calls it, and for a tile of a mesh with ".1001" or the like after it
+  std::string declared_name;  ///< as the scene file calls it: the same for all tiles of a mesh
   std::shared_ptr<const Surface> surface;
   std::shared_ptr<const Shader> shader;
   std::filesystem::path map_path;  ///< where its reduction map is, or will be baked to
@@ -47,7 +48,7 @@ struct Object {
   Transform transform;
 };
 
-/// Everything at one moment.
+/// Everything at one moment. Tiles of a mesh follow one another.
 struct Scene {
   Camera camera;
   std::vector<Light> lights;
@@ -55,5 +56,11 @@ struct Scene {
   Rgb background;
   float time_seconds = 0;
 };
+
+/// Whether object i is a tile of the mesh that the object before it is a tile of, too.
+inline bool is_further_tile(const Scene& scene, std::size_t i) {
+  const std::string& name = scene.objects[i].declared_name;
+  return i > 0 && !name.empty() && name == scene.objects[i - 1].declared_name;
+}
 
 }  // namespace redmap

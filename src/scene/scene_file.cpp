@@ -79,7 +79,8 @@ std::vector<Light> read_lights(const TableReader& file, const std::vector<Light>
   return lights;
 }
 
-Scene read_scene(const toml::table& file, const std::filesystem::path& path) {
+Scene read_scene(const toml::table& file, const std::filesystem::path& path, std::vector<std::string>& remarks,
+                 std::vector<std::string>& assumptions) {
   const TableReader reader(file, "", {"background", "import", "camera", "light", "object", "animation"});
   const GltfImport import = read_import(reader, path.parent_path());
   if (!reader.has("camera") && !import.camera) throw Error("{}: expected a [camera] table, found none", path.string());
@@ -91,7 +92,8 @@ Scene read_scene(const toml::table& file, const std::filesystem::path& path) {
     ObjectReader object_reader(path.parent_path());
     const TableReader objects(reader.table("object"), "object");
     for (const std::string& name : objects.keys())
-      scene.objects.push_back(object_reader.read(name, objects.table(name)));
+      for (Object& object : object_reader.read(name, objects.table(name))) scene.objects.push_back(std::move(object));
+    remarks = object_reader.remarks(), assumptions = object_reader.assumptions();
   }
   return scene;
 }
@@ -119,7 +121,7 @@ SceneFile SceneFile::load(const std::filesystem::path& path, std::span<const std
   apply_overrides(file, overrides);
   SceneFile scene;
   scene.path_ = path;
-  scene.rest_ = read_scene(file, path);
+  scene.rest_ = read_scene(file, path, scene.remarks_, scene.assumptions_);
   if (file.contains("animation"))
     scene.animation_ = read_animation(TableReader(file, "").table("animation"), scene.rest_);
   for (int frame = 1; frame <= scene.frame_count(); ++frame)
@@ -133,12 +135,14 @@ Scene SceneFile::at(int frame) const {
   return animate(rest_, animation_, frame);
 }
 
-const Object& SceneFile::object(const std::string& name) const {
+std::vector<Object> SceneFile::objects(const std::string& name) const {
+  std::vector<Object> objects;
   std::vector<std::string> names;
   for (const Object& object : rest_.objects) {
-    if (object.name == name) return object;
+    if (object.name == name || object.declared_name == name) objects.push_back(object);
     names.push_back(object.name);
   }
+  if (!objects.empty()) return objects;
   throw Error("{}: expected an object of the scene, found \"{}\"{}", path_.string(), name, suggestion(name, names));
 }
 

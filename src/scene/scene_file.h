@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "scene/animation.h"
 #include "scene/scene.h"
@@ -25,13 +26,20 @@ class SceneFile {
 
   /// The scene at `frame`; surfaces and shaders are shared between frames. Throws Error outside 1 to frame_count().
   Scene at(int frame) const;
-  /// The object of that name, at rest. Throws Error naming the nearest.
-  const Object& object(const std::string& name) const;
+  /// The object of that name, at rest: several where it is a mesh on several tiles of uv. Throws Error naming the
+  /// nearest.
+  std::vector<Object> objects(const std::string& name) const;
+
+  /// One line each: what was wrong with the meshes and what was done about it, for people to know; and what their
+  /// files leave unsaid.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+  const std::vector<std::string>& assumptions() const { return assumptions_; }
 
  private:
   std::filesystem::path path_;
   Scene rest_;
   Animation animation_;
+  std::vector<std::string> remarks_, assumptions_;
 };
 
 }  // namespace redmap

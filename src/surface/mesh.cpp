@@ -1,7 +1,5 @@
-// What is common to all mesh files: validation, zero-area triangles, vertex normals; and writing.
+// What is common to all mesh files: validation, zero-area triangles, parts, vertex normals.
 #include "surface/mesh.h"
-
-#include <fmt/os.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,18 +8,12 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "surface/mesh_files.h"
 
 namespace redmap {
 
 namespace {
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
 
 void check_indices(const std::filesystem::path& path, const char* what, const std::vector<Triangle>& triangles,
                    std::size_t count) {
@@ -60,62 +52,51 @@ bool has_area(const TriangleMesh& mesh, const Triangle& t) {
   return std::isnormal(dot(normal, normal));
 }
 
-std::size_t drop_zero_area(TriangleMesh& mesh) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!has_area(mesh, mesh.triangles[t])) continue;
-    mesh.triangles[kept] = mesh.triangles[t];
-    if (!mesh.normal_triangles.empty()) mesh.normal_triangles[kept] = mesh.normal_triangles[t];
-    if (!mesh.uv_triangles.empty()) mesh.uv_triangles[kept] = mesh.uv_triangles[t];
-    ++kept;
-  }
-  const std::size_t dropped = mesh.triangles.size() - kept;
-  mesh.triangles.resize(kept);
-  if (!mesh.normal_triangles.empty()) mesh.normal_triangles.resize(kept);
-  if (!mesh.uv_triangles.empty()) mesh.uv_triangles.resize(kept);
-  return dropped;
+std::vector<std::uint8_t> triangles_with_area(const TriangleMesh& mesh) {
+  std::vector<std::uint8_t> keep(mesh.triangles.size());
+  for (std::size_t t = 0; t < keep.size(); ++t) keep[t] = has_area(mesh, mesh.triangles[t]);
+  return keep;
 }
 
-void write_obj(fmt::ostream& out, const TriangleMesh& mesh) {
-  for (const Vec3 p : mesh.positions) out.print("v {} {} {}\n", p.x, p.y, p.z);
-  for (const Vec2 t : mesh.uv) out.print("vt {} {}\n", t.x, t.y);
-  for (const Vec3 n : mesh.normals) out.print("vn {} {} {}\n", n.x, n.y, n.z);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    out.print("f");
-    for (int k = 0; k < 3; ++k) {
-      out.print(" {}", mesh.triangles[t][k] + 1);
-      if (!mesh.uv_triangles.empty()) out.print("/{}", mesh.uv_triangles[t][k] + 1);
-      if (!mesh.normal_triangles.empty())
-        out.print("{}{}", mesh.uv_triangles.empty() ? "//" : "/", mesh.normal_triangles[t][k] + 1);
-    }
-    out.print("\n");
-  }
+/// As the file has it, checked.
+TriangleMesh read_whole(const std::filesystem::path& path, const std::vector<Vec3>* shape, int uv_set) {
+  const std::string extension = lower_extension(path);
+  TriangleMesh mesh;
+  if (extension == ".obj")
+    mesh = read_obj(path, shape);
+  else if (extension == ".ply")
+    mesh = read_ply(path, shape);
+  else if (extension == ".stl")
+    mesh = read_stl(path);
+  else if (extension == ".gltf" || extension == ".glb")
+    mesh = read_gltf(path, extension == ".glb", uv_set);
+  else
+    throw Error("{}: expected a mesh as .obj, .ply, .stl, .gltf or .glb, found \"{}\"", path.string(), extension);
+  check(path, mesh);
+  const bool is_named = mesh.parts.size() > 1 ||
+                        (mesh.parts.size() == 1 && !(mesh.parts[0].group.empty() && mesh.parts[0].material.empty()));
+  if (!is_named) mesh.parts.clear(), mesh.triangle_parts.clear();
+  return mesh;
 }
 
-template <typename T>
-void put(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-/// Positions and faces; uv a corner, as MeshLab and Blender read them.
-std::string ply_bytes(const TriangleMesh& mesh) {
-  const bool has_uv = !mesh.uv_triangles.empty();
-  std::string bytes = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
-      "element face {}\nproperty list uchar int vertex_indices\n{}end_header\n",
-      mesh.positions.size(), mesh.triangles.size(), has_uv ? "property list uchar float texcoord\n" : "");
-  for (const Vec3 p : mesh.positions) put(bytes, p);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    put(bytes, std::uint8_t{3});
-    put(bytes, mesh.triangles[t]);
-    if (!has_uv) continue;
-    put(bytes, std::uint8_t{6});
-    for (const std::uint32_t corner : mesh.uv_triangles[t]) put(bytes, mesh.uv[corner]);
-  }
-  return bytes;
+/// Which triangles to keep: those with area. Throws Error if none has any.
+std::vector<std::uint8_t> check_areas(const std::filesystem::path& path, const TriangleMesh& mesh, MeshReport* report) {
+  std::vector<std::uint8_t> keep = triangles_with_area(mesh);
+  const auto dropped = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
+  if (dropped == keep.size())
+    throw Error("{}: expected a mesh, found only the {} zero-area triangles", path.string(), dropped);
+  if (report) report->zero_area_triangles = dropped;
+  return keep;
 }
 
 }  // namespace
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
 
 std::string read_bytes(const std::filesystem::path& path) {
   std::error_code error;
@@ -129,48 +110,83 @@ std::string read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path, MeshReport* report) {
-  const std::string extension = lower_extension(path);
-  TriangleMesh mesh;
-  if (extension == ".obj")
-    mesh = read_obj(path);
-  else if (extension == ".ply")
-    mesh = read_ply(path);
-  else if (extension == ".gltf" || extension == ".glb")
-    mesh = read_gltf(path, extension == ".glb");
-  else
-    throw Error("{}: expected a mesh as .obj, .ply, .gltf or .glb, found \"{}\"", path.string(), extension);
-  check(path, mesh);
-  const std::size_t dropped = drop_zero_area(mesh);
-  if (mesh.triangles.empty())
-    throw Error("{}: expected a mesh, found only the {} zero-area triangles", path.string(), dropped);
-  if (report) report->zero_area_triangles = dropped;
+TriangleMesh read_mesh(const std::filesystem::path& path, MeshReport* report, int uv_set) {
+  TriangleMesh mesh = read_whole(path, nullptr, uv_set);
+  keep_triangles(mesh, check_areas(path, mesh, report));
   return mesh;
 }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  const std::string extension = lower_extension(path);
-  if (extension != ".obj" && extension != ".ply")
-    throw Error("{}: meshes are written as .obj or .ply, found \"{}\"", path.string(), extension);
-  const std::filesystem::path temporary = path.string() + ".tmp";
-  try {
-    if (extension == ".obj") {
-      fmt::ostream out = fmt::output_file(temporary.string());
-      write_obj(out, mesh);
-      out.close();
-    } else {
-      std::ofstream out(temporary, std::ios::binary);
-      out.exceptions(std::ios::failbit | std::ios::badbit);
-      const std::string bytes = ply_bytes(mesh);
-      out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-      out.close();
-    }
-    std::filesystem::rename(temporary, path);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw Error("{}: cannot be written: {}", path.string(), error.what());
+PosedMesh read_posed_mesh(const std::filesystem::path& rest, const std::filesystem::path& posed, MeshReport* report,
+                          int uv_set) {
+  PosedMesh mesh;
+  mesh.rest = read_whole(rest, nullptr, uv_set);
+  mesh.posed = read_whole(posed, &mesh.rest.positions, uv_set);
+  const auto differ = [&](const char* what, std::size_t expected, std::size_t found) {
+    throw Error("{}: expected {} {} as in the mesh at rest, {}, found {}", posed.string(), expected, what,
+                rest.string(), found);
+  };
+  if (mesh.posed.positions.size() != mesh.rest.positions.size())
+    differ("vertices", mesh.rest.positions.size(), mesh.posed.positions.size());
+  if (mesh.posed.triangles.size() != mesh.rest.triangles.size())
+    differ("triangles", mesh.rest.triangles.size(), mesh.posed.triangles.size());
+  for (std::size_t t = 0; t < mesh.rest.triangles.size(); ++t)
+    if (mesh.posed.triangles[t] != mesh.rest.triangles[t])
+      throw Error("{}: expected the topology of the mesh at rest, {}, found that triangle {} has other vertices",
+                  posed.string(), rest.string(), t);
+  const std::vector<std::uint8_t> keep = check_areas(rest, mesh.rest, report);
+  keep_triangles(mesh.rest, keep), keep_triangles(mesh.posed, keep);
+  return mesh;
+}
+
+void keep_triangles(TriangleMesh& mesh, std::span<const std::uint8_t> keep) {
+  const auto filter = [&](auto& values) {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < values.size(); ++t)
+      if (keep[t]) values[kept++] = values[t];
+    values.resize(kept);
+  };
+  filter(mesh.triangles), filter(mesh.normal_triangles), filter(mesh.uv_triangles), filter(mesh.triangle_parts);
+}
+
+void drop_unused_vertices(TriangleMesh& mesh) {
+  const auto compact = [](std::vector<Vec3>& values, std::vector<Triangle>& triangles) {
+    constexpr std::uint32_t kUnused = ~0u;
+    std::vector<std::uint32_t> place(values.size(), kUnused);
+    std::vector<Vec3> used;
+    for (Triangle& t : triangles)
+      for (std::uint32_t& index : t) {
+        if (place[index] == kUnused) {
+          place[index] = static_cast<std::uint32_t>(used.size());
+          used.push_back(values[index]);
+        }
+        index = place[index];
+      }
+    values = std::move(used);
+  };
+  compact(mesh.positions, mesh.triangles);
+  compact(mesh.normals, mesh.normal_triangles);
+}
+
+std::vector<std::string> part_names(const TriangleMesh& mesh) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const MeshPart& part : mesh.parts) add(part.group);
+  for (const MeshPart& part : mesh.parts) add(part.material);
+  return names;
+}
+
+std::vector<std::uint8_t> select_part(const TriangleMesh& mesh, const std::string& name) {
+  std::vector<std::uint8_t> keep(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangle_parts.size(); ++t) {
+    const MeshPart& part = mesh.parts[mesh.triangle_parts[t]];
+    keep[t] = part.group == name || part.material == name;
   }
+  if (std::find(keep.begin(), keep.end(), 1) != keep.end()) return keep;
+  const std::vector<std::string> names = part_names(mesh);
+  if (names.empty()) throw Error("expected a part of the mesh, found \"{}\" for a mesh without named parts", name);
+  throw Error("expected a part of the mesh, found \"{}\" (did you mean \"{}\"?)", name, nearest(name, names));
 }
 
 void compute_normals(TriangleMesh& mesh) {

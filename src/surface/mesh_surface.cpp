@@ -7,6 +7,7 @@
 #include "surface/charts.h"
 #include "surface/hash_bytes.h"
 #include "surface/mesh.h"
+#include "surface/uv_edge.h"
 #include "surface/uv_grid.h"
 
 namespace redmap {
@@ -17,29 +18,6 @@ constexpr std::uint32_t kNobody = ~0u;
 
 /// (Sub-)points searched at a time: their owners stay in the second-level cache.
 constexpr std::size_t kPointsPerBand = 1 << 16;
-
-struct Point2 {
-  double x, y;
-};
-
-/// A directed edge of a triangle in texels. Its ends are kept in an order of their own, so that the triangles on both
-/// sides compute exactly opposite values and never leave a crack between them.
-class Edge {
- public:
-  Edge(Point2 a, Point2 b) : reversed_(b.x < a.x || (b.x == a.x && b.y < a.y)) {
-    if (reversed_) std::swap(a, b);
-    start_ = a, along_ = {b.x - a.x, b.y - a.y};
-  }
-  /// Twice the signed area of (a, b, p). The rounding is spelled out: it must not depend on what is inlined where.
-  double side(Point2 p) const {
-    const double area = std::fma(along_.x, p.y - start_.y, -(along_.y * (p.x - start_.x)));
-    return reversed_ ? -area : area;
-  }
-
- private:
-  bool reversed_;
-  Point2 start_, along_;
-};
 
 /// What one triangle needs at its texels and hits.
 struct Face {
@@ -97,13 +75,13 @@ class MeshSurface final : public Surface {
   void measure();
   void build_faces();
   void claim(Extent extent, TexelRegion band, std::span<const Vec2> offsets, std::vector<std::uint32_t>& owners) const;
-  void set_point(std::size_t i, Extent extent, Point2 texels, std::uint32_t triangle, SurfacePoints& points) const;
+  void set_point(std::size_t i, Extent extent, TexelPoint texels, std::uint32_t triangle, SurfacePoints& points) const;
 
   Vec3 position(std::size_t t, int k) const { return mesh_.positions[mesh_.triangles[t][k]]; }
   Vec3 normal(std::size_t t, int k) const { return mesh_.normals[mesh_.normal_triangles[t][k]]; }
   Vec2 uv(std::size_t t, int k) const { return mesh_.uv[mesh_.uv_triangles[t][k]]; }
   /// Exact: a float times a small whole number fits a double.
-  Point2 texels(std::size_t t, int k, Extent extent) const {
+  TexelPoint texels(std::size_t t, int k, Extent extent) const {
     return {double(uv(t, k).x) * extent.width, double(uv(t, k).y) * extent.height};
   }
 
@@ -163,8 +141,8 @@ void MeshSurface::claim(Extent extent, TexelRegion band, std::span<const Vec2> o
   grid_.find({float(band.x) / w - kSlack, float(band.y) / h - kSlack},
              {float(band.x + band.width) / w + kSlack, float(band.y + band.height) / h + kSlack}, candidates);
   for (const std::uint32_t t : candidates) {
-    const Point2 p[3] = {texels(t, 0, extent), texels(t, 1, extent), texels(t, 2, extent)};
-    const Edge edges[3] = {{p[0], p[1]}, {p[1], p[2]}, {p[2], p[0]}};
+    const TexelPoint p[3] = {texels(t, 0, extent), texels(t, 1, extent), texels(t, 2, extent)};
+    const UvEdge edges[3] = {{p[0], p[1]}, {p[1], p[2]}, {p[2], p[0]}};
     const double orientation = edges[0].side(p[2]) < 0 ? -1 : 1;
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
@@ -174,7 +152,7 @@ void MeshSurface::claim(Extent extent, TexelRegion band, std::span<const Vec2> o
       const int y_end = std::min(band.y + band.height - 1, static_cast<int>(std::floor(top - oy)));
       for (int y = std::max(band.y, static_cast<int>(std::ceil(bottom - oy))); y <= y_end; ++y)
         for (int x = std::max(band.x, static_cast<int>(std::ceil(left - ox))); x <= x_end; ++x) {
-          const Point2 at{x + ox, y + oy};
+          const TexelPoint at{x + ox, y + oy};
           std::uint32_t& owner = owners[(std::size_t(y - band.y) * band.width + (x - band.x)) * offsets.size() + k];
           if (owner == kNobody && orientation * edges[0].side(at) >= 0 && orientation * edges[1].side(at) >= 0 &&
               orientation * edges[2].side(at) >= 0)
@@ -184,9 +162,9 @@ void MeshSurface::claim(Extent extent, TexelRegion band, std::span<const Vec2> o
   }
 }
 
-void MeshSurface::set_point(std::size_t i, Extent extent, Point2 at, std::uint32_t t, SurfacePoints& points) const {
-  const Point2 p0 = texels(t, 0, extent), p1 = texels(t, 1, extent), p2 = texels(t, 2, extent);
-  const Point2 a{p1.x - p0.x, p1.y - p0.y}, b{p2.x - p0.x, p2.y - p0.y}, p{at.x - p0.x, at.y - p0.y};
+void MeshSurface::set_point(std::size_t i, Extent extent, TexelPoint at, std::uint32_t t, SurfacePoints& points) const {
+  const TexelPoint p0 = texels(t, 0, extent), p1 = texels(t, 1, extent), p2 = texels(t, 2, extent);
+  const TexelPoint a{p1.x - p0.x, p1.y - p0.y}, b{p2.x - p0.x, p2.y - p0.y}, p{at.x - p0.x, at.y - p0.y};
   const double scale = 1 / (a.x * b.y - a.y * b.x);
   const float b1 = static_cast<float>((p.x * b.y - p.y * b.x) * scale);
   const float b2 = static_cast<float>((a.x * p.y - a.y * p.x) * scale);
@@ -237,18 +215,53 @@ void MeshSurface::complete(std::span<const HitCoordinates> hits, std::span<Surfa
     const float blended_length = length(blended);
     const Vec3 unit = blended_length > 0 ? blended / blended_length : face.geometric_normal;
     const float unblend = blended_length > 0 ? 1 / blended_length : 0;
-    out[i] = {.position = position(t, 0) * b0 + position(t, 1) * b1 + position(t, 2) * b2,
+    const Vec3 place = position(t, 0) * b0 + position(t, 1) * b1 + position(t, 2) * b2;
+    const Vec3 tangent = make_frame(unit, face.dp_du).x;
+    out[i] = {.position = place,
               .normal = unit,
               .geometric_normal = face.geometric_normal,
-              .tangent = make_frame(unit, face.dp_du).x,
+              .tangent = tangent,
               .dp_du = face.dp_du,
               .dp_dv = face.dp_dv,
               .dn_du = (face.dn_du - unit * dot(unit, face.dn_du)) * unblend,
               .dn_dv = (face.dn_dv - unit * dot(unit, face.dn_dv)) * unblend,
               .uv = uv(t, 0) * b0 + uv(t, 1) * b1 + uv(t, 2) * b2,
-              .chart = face.chart};
+              .chart = face.chart,
+              .rest = {place, unit, tangent}};
   }
 }
+
+/// A mesh that is hit where it stands and shaded where it was at rest.
+class PosedMeshSurface final : public Surface {
+ public:
+  PosedMeshSurface(TriangleMesh rest, TriangleMesh posed) : rest_(std::move(rest)), posed_(std::move(posed)) {}
+
+  Extent map_extent(int size) const override { return rest_.map_extent(size); }
+  bool wraps_u() const override { return false; }
+  double area() const override { return rest_.area(); }
+  double uv_area() const override { return rest_.uv_area(); }
+  void rasterize(Extent extent, TexelRegion region, std::span<const Vec2> offsets, std::span<const std::uint8_t> wanted,
+                 TexelPoints& out) const override {
+    rest_.rasterize(extent, region, offsets, wanted, out);
+  }
+  std::uint64_t fingerprint() const override { return rest_.fingerprint(); }
+
+  void complete(std::span<const HitCoordinates> hits, std::span<SurfaceHit> out) const override {
+    posed_.complete(hits, out);
+    std::vector<SurfaceHit> at_rest(hits.size());
+    rest_.complete(hits, at_rest);
+    for (std::size_t i = 0; i < hits.size(); ++i) out[i].rest = at_rest[i].rest;
+  }
+  std::uint32_t chart(std::uint32_t triangle) const override { return rest_.chart(triangle); }
+  std::optional<AnalyticHit> intersect(Vec3, Vec3, float, float) const override { return std::nullopt; }
+  const TriangleMesh* mesh() const override { return posed_.mesh(); }
+  Vec3 lower() const override { return posed_.lower(); }
+  Vec3 upper() const override { return posed_.upper(); }
+  std::uint64_t pose_fingerprint() const override { return hash64(rest_.fingerprint(), posed_.fingerprint()); }
+
+ private:
+  MeshSurface rest_, posed_;
+};
 
 }  // namespace
 
@@ -256,6 +269,17 @@ std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh) {
   if (mesh.normals.empty() || mesh.normal_triangles.size() != mesh.triangles.size()) compute_normals(mesh);
   check(mesh);
   return std::make_shared<MeshSurface>(std::move(mesh));
+}
+
+std::shared_ptr<const Surface> make_posed_surface(PosedMesh mesh) {
+  if (mesh.posed.triangles != mesh.rest.triangles)
+    throw Error("mesh: expected the same {} triangles at rest and posed, found others", mesh.rest.triangles.size());
+  mesh.posed.uv = mesh.rest.uv, mesh.posed.uv_triangles = mesh.rest.uv_triangles;
+  for (TriangleMesh* each : {&mesh.rest, &mesh.posed}) {
+    if (each->normals.empty() || each->normal_triangles.size() != each->triangles.size()) compute_normals(*each);
+    check(*each);
+  }
+  return std::make_shared<PosedMeshSurface>(std::move(mesh.rest), std::move(mesh.posed));
 }
 
 }  // namespace redmap

@@ -246,6 +246,7 @@ PrepareReport prepare(TriangleMesh& mesh, const PrepareOptions& options) {
   report.dropped_triangles = drop_degenerate(mesh);
   if (mesh.triangles.empty()) throw Error("mesh: expected triangles of three different places, found none");
   if (options.largest_part) report.dropped_triangles += keep_largest_part(mesh);
+  if (options.repair) report.repair = repair(mesh);
   for (compact(mesh); mesh.triangles.size() < options.triangles; ++report.subdivisions) mesh = subdivide_loop(mesh);
   if (options.triangles > 0 && mesh.triangles.size() > options.triangles) {
     simplify(mesh, options.triangles);

@@ -1,13 +1,14 @@
 // glTF 2.0 and GLB through tinygltf: the triangles of every mesh a node of the scene places, in world space, v upwards.
-#include <tiny_gltf.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "base/error.h"
+#include "surface/gltf_document.h"
+#include "surface/gltf_primitive.h"
 #include "surface/mesh_files.h"
 
 namespace redmap {
@@ -17,9 +18,15 @@ namespace {
 /// Deeper than any sound scene; a cycle of nodes ends here.
 constexpr int kDeepestNode = 256;
 
+/// Extensions that a file may require: those that are read, and those that have nothing to do with shape.
+constexpr std::string_view kKnownExtensions[] = {"KHR_draco_mesh_compression", "KHR_mesh_quantization",
+                                                 "KHR_texture_transform",      "KHR_lights_punctual",
+                                                 "KHR_texture_basisu",         "EXT_texture_webp"};
+
 class GltfMesh {
  public:
-  GltfMesh(const std::filesystem::path& path, const tinygltf::Model& model) : path_(path), model_(model) {}
+  GltfMesh(const std::filesystem::path& path, const tinygltf::Model& model, int uv_set)
+      : path_(path), model_(model), uv_name_(fmt::format("TEXCOORD_{}", uv_set)) {}
 
   TriangleMesh read() {
     if (model_.scenes.empty()) {
@@ -29,6 +36,7 @@ class GltfMesh {
       const int scene = model_.defaultScene < 0 ? 0 : model_.defaultScene;
       for (const int node : at(model_.scenes, scene, "scene").nodes) add_node(node, Eigen::Affine3d::Identity(), 0);
     }
+    if (mesh_.triangles.empty()) fail("expected a mesh of triangles that a node of the scene places, found none");
     if (!has_uv_) mesh_.uv.clear(), mesh_.uv_triangles.clear();
     if (!has_normals_) mesh_.normals.clear(), mesh_.normal_triangles.clear();
     return std::move(mesh_);
@@ -69,9 +77,11 @@ class GltfMesh {
     if (depth > kDeepestNode) fail(fmt::format("expected nodes at most {} deep, found a cycle or more", kDeepestNode));
     const tinygltf::Node& node = at(model_.nodes, index, "node");
     const Eigen::Affine3d to_world = parent * transform_of(node);
-    if (node.mesh >= 0)
-      for (const tinygltf::Primitive& primitive : at(model_.meshes, node.mesh, "mesh").primitives)
-        add_primitive(primitive, to_world);
+    if (node.mesh >= 0) {
+      const tinygltf::Mesh& mesh = at(model_.meshes, node.mesh, "mesh");
+      group_ = node.name.empty() ? mesh.name : node.name;
+      for (const tinygltf::Primitive& primitive : mesh.primitives) add_primitive(primitive, to_world);
+    }
     for (const int child : node.children) add_node(child, to_world, depth + 1);
   }
 
@@ -112,14 +122,25 @@ class GltfMesh {
     return value;
   }
 
+  /// Whole numbers (KHR_mesh_quantization) are themselves, or parts of the largest one where they are normalized.
+  template <typename T>
+  static float whole_at(const Values& values, std::size_t i, int component) {
+    const auto value = static_cast<float>(read<T>(values, i, component));
+    return values.normalized ? std::max(-1.0f, value / static_cast<float>(std::numeric_limits<T>::max())) : value;
+  }
+
   float float_at(const Values& values, std::size_t i, int component) const {
     switch (values.component) {
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return read<float>(values, i, component);
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return whole_at<std::int8_t>(values, i, component);
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return read<std::uint8_t>(values, i, component) / 255.0f;
+        return whole_at<std::uint8_t>(values, i, component);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return whole_at<std::int16_t>(values, i, component);
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return read<std::uint16_t>(values, i, component) / 65535.0f;
+        return whole_at<std::uint16_t>(values, i, component);
       default:
         fail(fmt::format("expected float attributes, found component type {}", values.component));
     }
@@ -138,95 +159,145 @@ class GltfMesh {
     }
   }
 
-  std::optional<Values> attribute(const tinygltf::Primitive& primitive, const char* name, int components) const {
+  std::optional<Values> attribute(const tinygltf::Primitive& primitive, const std::string& name, int components) const {
     const auto found = primitive.attributes.find(name);
     if (found == primitive.attributes.end()) return std::nullopt;
     return values_of(found->second, components);
   }
 
   void add_primitive(const tinygltf::Primitive& primitive, const Eigen::Affine3d& to_world) {
-    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1)
-      fail(fmt::format("expected primitives of triangles (mode 4), found mode {}", primitive.mode));
-    if (primitive.extensions.contains("KHR_draco_mesh_compression")) fail("Draco compression is not supported");
+    const int mode = primitive.mode == -1 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode < TINYGLTF_MODE_POINTS || mode > TINYGLTF_MODE_TRIANGLE_FAN)
+      fail(fmt::format("expected a primitive mode from 0 to 6, found {}", mode));
+    // Points and lines are no surface.
+    if (mode < TINYGLTF_MODE_TRIANGLES) return;
+    const auto draco = primitive.extensions.find("KHR_draco_mesh_compression");
+    const GltfPrimitive data =
+        draco == primitive.extensions.end() ? read_accessors(primitive, mode) : read_draco(draco->second);
+    for (const std::uint32_t corner : data.corners)
+      if (corner >= data.positions.size())
+        fail(fmt::format("expected a vertex index below {}, found {}", data.positions.size(), corner));
+    has_normals_ &= !data.normals.empty(), has_uv_ &= !data.uv.empty();
+    add_part(primitive);
+    add_triangles(data, to_world.linear().determinant() < 0);
+    add_vertices(data, to_world);
+  }
+
+  GltfPrimitive read_accessors(const tinygltf::Primitive& primitive, int mode) const {
+    GltfPrimitive data;
     const std::optional<Values> positions = attribute(primitive, "POSITION", 3);
     if (!positions) fail("expected a primitive with POSITION, found one without");
-    const std::optional<Values> normals = attribute(primitive, "NORMAL", 3), uv = attribute(primitive, "TEXCOORD_0", 2);
-    has_normals_ &= normals.has_value(), has_uv_ &= uv.has_value();
+    const std::optional<Values> normals = attribute(primitive, "NORMAL", 3);
+    const std::optional<Values> uv = attribute(primitive, uv_name_, 2);
     if ((normals && normals->count != positions->count) || (uv && uv->count != positions->count))
       fail(fmt::format("expected {} normals and uv as there are positions, found {} and {}", positions->count,
                        normals ? normals->count : 0, uv ? uv->count : 0));
-    add_triangles(primitive, positions->count, to_world.linear().determinant() < 0);
-    add_vertices(*positions, normals, uv, to_world);
+    const auto vec3_at = [&](const Values& values, std::size_t i) {
+      return Vec3{float_at(values, i, 0), float_at(values, i, 1), float_at(values, i, 2)};
+    };
+    for (std::size_t i = 0; i < positions->count; ++i) {
+      data.positions.push_back(vec3_at(*positions, i));
+      if (normals) data.normals.push_back(vec3_at(*normals, i));
+      if (uv) data.uv.push_back({float_at(*uv, i, 0), float_at(*uv, i, 1)});
+    }
+    data.corners = corners_of(primitive, mode, positions->count);
+    return data;
+  }
+
+  /// Strips and fans are unrolled.
+  std::vector<std::uint32_t> corners_of(const tinygltf::Primitive& primitive, int mode, std::size_t vertices) const {
+    std::optional<Values> indices;
+    if (primitive.indices >= 0) indices = values_of(primitive.indices, 1);
+    const std::size_t count = indices ? indices->count : vertices;
+    const auto corner = [&](std::size_t i) { return indices ? index_at(*indices, i) : static_cast<std::uint32_t>(i); };
+    std::vector<std::uint32_t> corners;
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+      if (count % 3 != 0) fail(fmt::format("expected whole triangles, found {} corners", count));
+      for (std::size_t i = 0; i < count; ++i) corners.push_back(corner(i));
+      return corners;
+    }
+    for (std::size_t i = 2; i < count; ++i) {
+      const bool is_strip = mode == TINYGLTF_MODE_TRIANGLE_STRIP, turned = is_strip && i % 2 == 1;
+      const std::uint32_t before = corner(i - 1), first = is_strip ? corner(i - 2) : corner(0);
+      corners.insert(corners.end(), {turned ? before : first, turned ? first : before, corner(i)});
+    }
+    return corners;
+  }
+
+  GltfPrimitive read_draco(const tinygltf::Value& extension) const {
+    const tinygltf::Value &view_index = extension.Get("bufferView"), &names = extension.Get("attributes");
+    if (!view_index.IsInt() || !names.IsObject() || !names.Get("POSITION").IsInt())
+      fail("expected Draco compression with bufferView and POSITION, found none");
+    const tinygltf::BufferView& view = at(model_.bufferViews, view_index.GetNumberAsInt(), "buffer view");
+    const std::vector<unsigned char>& bytes = at(model_.buffers, view.buffer, "buffer").data;
+    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+      fail(fmt::format("expected {} bytes of Draco compression, found a buffer of {} bytes", view.byteLength,
+                       bytes.size()));
+    const auto number = [&](const std::string& name) -> std::optional<std::uint32_t> {
+      const tinygltf::Value& value = names.Get(name);
+      if (!value.IsInt()) return std::nullopt;
+      return static_cast<std::uint32_t>(value.GetNumberAsInt());
+    };
+    try {
+      return decode_draco(std::span(bytes).subspan(view.byteOffset, view.byteLength),
+                          {*number("POSITION"), number("NORMAL"), number(uv_name_)});
+    } catch (const Error& error) {
+      fail(error.what());
+    }
+  }
+
+  /// Nodes are groups: what people see in a modelling program.
+  void add_part(const tinygltf::Primitive& primitive) {
+    const bool has_material = primitive.material >= 0;
+    mesh_.parts.push_back({group_, has_material ? at(model_.materials, primitive.material, "material").name : ""});
   }
 
   /// A mirroring transform turns the winding, so turn it back.
-  void add_triangles(const tinygltf::Primitive& primitive, std::size_t vertices, bool mirrored) {
+  void add_triangles(const GltfPrimitive& data, bool mirrored) {
     const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
-    std::optional<Values> indices;
-    if (primitive.indices >= 0) indices = values_of(primitive.indices, 1);
-    const std::size_t corners = indices ? indices->count : vertices;
-    if (corners % 3 != 0) fail(fmt::format("expected whole triangles, found {} corners", corners));
-    for (std::size_t i = 0; i < corners; i += 3) {
-      Triangle triangle;
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t index = indices ? index_at(*indices, i + k) : static_cast<std::uint32_t>(i + k);
-        if (index >= vertices) fail(fmt::format("expected a vertex index below {}, found {}", vertices, index));
-        triangle[k] = first + index;
-      }
+    for (std::size_t i = 0; i + 2 < data.corners.size(); i += 3) {
+      Triangle triangle = {first + data.corners[i], first + data.corners[i + 1], first + data.corners[i + 2]};
       if (mirrored) std::swap(triangle[1], triangle[2]);
       mesh_.triangles.push_back(triangle);
       mesh_.normal_triangles.push_back(triangle);
       mesh_.uv_triangles.push_back(triangle);
+      mesh_.triangle_parts.push_back(static_cast<std::uint32_t>(mesh_.parts.size() - 1));
     }
   }
 
-  void add_vertices(const Values& positions, const std::optional<Values>& normals, const std::optional<Values>& uv,
-                    const Eigen::Affine3d& to_world) {
+  void add_vertices(const GltfPrimitive& data, const Eigen::Affine3d& to_world) {
     const Eigen::Matrix3d normal_to_world = to_world.linear().inverse().transpose();
-    const auto vector_at = [&](const Values& values, std::size_t i) {
-      return Eigen::Vector3d(float_at(values, i, 0), float_at(values, i, 1), float_at(values, i, 2));
-    };
+    const auto to_eigen = [](Vec3 v) { return Eigen::Vector3d(v.x, v.y, v.z); };
     const auto to_vec3 = [](const Eigen::Vector3d& v) {
       return Vec3{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
     };
-    for (std::size_t i = 0; i < positions.count; ++i) {
-      mesh_.positions.push_back(to_vec3(to_world * vector_at(positions, i)));
-      mesh_.normals.push_back(normals ? to_vec3((normal_to_world * vector_at(*normals, i)).normalized()) : Vec3{});
+    for (std::size_t i = 0; i < data.positions.size(); ++i) {
+      mesh_.positions.push_back(to_vec3(to_world * to_eigen(data.positions[i])));
+      mesh_.normals.push_back(
+          data.normals.empty() ? Vec3{} : to_vec3((normal_to_world * to_eigen(data.normals[i])).normalized()));
       // glTF counts v downwards from the top of the picture.
-      mesh_.uv.push_back(uv ? Vec2{float_at(*uv, i, 0), 1 - float_at(*uv, i, 1)} : Vec2{});
+      mesh_.uv.push_back(data.uv.empty() ? Vec2{} : Vec2{data.uv[i].x, 1 - data.uv[i].y});
     }
   }
 
   const std::filesystem::path& path_;
   const tinygltf::Model& model_;
+  const std::string uv_name_;
+  std::string group_;  // the node whose mesh is being read
   TriangleMesh mesh_;
   bool has_uv_ = true, has_normals_ = true;
 };
 
-/// Pictures are no part of a mesh: left unread.
-bool skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-  return true;
-}
-
 }  // namespace
 
-TriangleMesh read_gltf(const std::filesystem::path& path, bool binary) {
-  const std::string bytes = read_bytes(path);
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(skip_image, nullptr);
-  tinygltf::Model model;
-  std::string error, warning;
-  const std::string folder = path.parent_path().string();
-  const auto size = static_cast<unsigned int>(bytes.size());
-  const bool sound =
-      binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, folder)
-             : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, folder);
-  if (!sound) {
-    std::replace(error.begin(), error.end(), '\n', ' ');
-    throw Error("{}: expected sound glTF, found: {}", path.string(), error.empty() ? "something else" : error);
-  }
-  return GltfMesh(path, model).read();
+TriangleMesh read_gltf(const std::filesystem::path& path, bool binary, int uv_set) {
+  const tinygltf::Model model = load_gltf(path, binary);
+  for (const std::string& extension : model.extensionsRequired)
+    if (std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), extension) == std::end(kKnownExtensions) &&
+        !extension.starts_with("KHR_materials_"))
+      throw Error("{}: expected glTF 2.0 with extensions that redmap knows, found that it requires {}", path.string(),
+                  extension);
+  return GltfMesh(path, model, uv_set).read();
 }
 
 }  // namespace redmap

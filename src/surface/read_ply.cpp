@@ -1,14 +1,17 @@
-// Stanford PLY: ascii and binary of both byte orders; polygons become fans; normals and uv where they are present.
+// Stanford PLY: ascii and binary of both byte orders; polygons are cut into triangles; normals and uv where they are
+// present.
 #include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "base/error.h"
 #include "surface/mesh_files.h"
+#include "surface/triangulate.h"
 
 namespace redmap {
 
@@ -141,6 +144,7 @@ Element element_of(const PlyScanner& in, const std::vector<std::string_view>& wo
   return element;
 }
 
+/// Lines that start with no keyword are passed over like comments: exporters have broken those in two.
 std::vector<Element> read_header(PlyScanner& in) {
   if (in.line() != "ply") in.fail("a PLY file starting with \"ply\"", "something else");
   std::vector<Element> elements;
@@ -148,7 +152,7 @@ std::vector<Element> read_header(PlyScanner& in) {
   while (true) {
     const std::string_view line = in.line();
     const std::vector<std::string_view> words = words_of(line);
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+    if (words.empty()) continue;
     if (words[0] == "end_header") break;
     if (words[0] == "format" && words.size() > 1) {
       in.set_format(format_of(in, words[1]));
@@ -157,8 +161,8 @@ std::vector<Element> read_header(PlyScanner& in) {
       elements.push_back(element_of(in, words, line));
     } else if (words[0] == "property" && !elements.empty()) {
       elements.back().properties.push_back(property_of(in, words, line));
-    } else {
-      in.fail("format, element, property or end_header", line);
+    } else if (words[0] == "property") {
+      in.fail("an element before its properties", line);
     }
   }
   if (!has_format) in.fail("a format line", "none in the header");
@@ -209,12 +213,27 @@ std::uint32_t index_of(const PlyScanner& in, double value) {
   return static_cast<std::uint32_t>(value);
 }
 
-void read_faces(PlyScanner& in, const Element& element, TriangleMesh& mesh) {
+/// Cuts the polygon into triangles; `first_uv`: where its own uv start, if it has any.
+void add_polygon(std::span<const std::uint32_t> corners, const std::vector<Vec3>& shape,
+                 std::optional<std::uint32_t> first_uv, TriangleMesh& mesh) {
+  std::vector<Vec3> polygon;
+  std::vector<std::array<int, 3>> cut;
+  // Indices are checked by read_mesh(): until then, nowhere is as good as anywhere.
+  for (const std::uint32_t corner : corners) polygon.push_back(corner < shape.size() ? shape[corner] : Vec3{});
+  triangulate(polygon, cut);
+  for (const auto& [a, b, c] : cut) {
+    mesh.triangles.push_back({corners[a], corners[b], corners[c]});
+    if (first_uv) mesh.uv_triangles.push_back({*first_uv + a, *first_uv + b, *first_uv + c});
+  }
+}
+
+void read_faces(PlyScanner& in, const Element& element, const std::vector<Vec3>* shape, TriangleMesh& mesh) {
   const int corners_at = find_property(element, {"vertex_indices", "vertex_index"});
   const int uv_at = find_property(element, {"texcoord"});
   if (corners_at < 0) in.fail("faces with vertex_indices", "a header without");
   if (uv_at >= 0) mesh.uv.clear();
   std::vector<double> corners, uv, ignored;
+  std::vector<std::uint32_t> polygon;
   for (std::size_t i = 0; i < element.count; ++i) {
     for (int k = 0; k < static_cast<int>(element.properties.size()); ++k)
       read_values(in, element.properties[k], k == corners_at ? corners : k == uv_at ? uv : ignored);
@@ -224,16 +243,15 @@ void read_faces(PlyScanner& in, const Element& element, TriangleMesh& mesh) {
     if (uv_at >= 0)
       for (std::size_t k = 0; k < uv.size(); k += 2)
         mesh.uv.push_back({static_cast<float>(uv[k]), static_cast<float>(uv[k + 1])});
-    for (std::uint32_t k = 2; k < corners.size(); ++k) {
-      mesh.triangles.push_back({index_of(in, corners[0]), index_of(in, corners[k - 1]), index_of(in, corners[k])});
-      if (uv_at >= 0) mesh.uv_triangles.push_back({first_uv, first_uv + k - 1, first_uv + k});
-    }
+    polygon.clear();
+    for (const double corner : corners) polygon.push_back(index_of(in, corner));
+    add_polygon(polygon, shape ? *shape : mesh.positions, uv_at >= 0 ? std::optional(first_uv) : std::nullopt, mesh);
   }
 }
 
 }  // namespace
 
-TriangleMesh read_ply(const std::filesystem::path& path) {
+TriangleMesh read_ply(const std::filesystem::path& path, const std::vector<Vec3>* shape) {
   const std::string bytes = read_bytes(path);
   PlyScanner in(path, bytes);
   TriangleMesh mesh;
@@ -242,7 +260,7 @@ TriangleMesh read_ply(const std::filesystem::path& path) {
     if (element.name == "vertex") {
       read_vertices(in, element, mesh);
     } else if (element.name == "face") {
-      read_faces(in, element, mesh);
+      read_faces(in, element, shape, mesh);
     } else {
       for (std::size_t i = 0; i < element.count; ++i)
         for (const Property& property : element.properties) read_values(in, property, ignored);

@@ -35,11 +35,14 @@ struct HitCoordinates {
 /// of the interpolated unit normal with it. `normal` is the
 /// interpolated unit normal, `tangent` a unit vector
 /// perpendicular to it, `geometric_normal` the face's, both outward. `chart` tells disconnected parts of the map
-/// apart.
+/// apart. `rest` is the same place before any deformation, which is where shaders see it.
 struct SurfaceHit {
   Vec3 position, normal, geometric_normal, tangent, dp_du, dp_dv, dn_du, dn_dv;
   Vec2 uv;
   std::uint32_t chart = 0;
+  struct Rest {
+    Vec3 position, normal, tangent;
+  } rest;
 };
 
 class Surface {
@@ -80,8 +83,10 @@ class Surface {
   virtual Vec3 lower() const = 0;
   virtual Vec3 upper() const = 0;
 
-  /// A hash of everything that decides where texels lie on the surface: maps remember it.
+  /// A hash of everything that decides where texels lie on the surface at rest: maps remember it.
   virtual std::uint64_t fingerprint() const = 0;
+  /// The same with the pose of a deformed mesh: what decides the picture. Differs from fingerprint() only there.
+  virtual std::uint64_t pose_fingerprint() const { return fingerprint(); }
 };
 
 /// Unit sphere: u = azimuth / 2 pi about +y from +x towards +z, v = polar angle / pi from +y. Radius in object units.

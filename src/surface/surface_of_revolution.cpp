@@ -69,7 +69,8 @@ void SurfaceOfRevolution::complete(std::span<const HitCoordinates> hits, std::sp
     const Azimuth at = azimuth(uv.x);
     const ProfilePoint p = profile(uv.y);
     const Vec3 normal = turned(p.normal_out, p.normal_y, at);
-    out[i] = {.position = turned(p.radius, p.y, at),
+    const Vec3 position = turned(p.radius, p.y, at);
+    out[i] = {.position = position,
               .normal = normal,
               .geometric_normal = normal,
               .tangent = tangent(at),
@@ -78,7 +79,8 @@ void SurfaceOfRevolution::complete(std::span<const HitCoordinates> hits, std::sp
               .dn_du = tangent(at) * static_cast<float>(kTwoPi * p.normal_out),
               .dn_dv = turned(p.normal_out_dv, p.normal_y_dv, at),
               .uv = uv,
-              .chart = hits[i].primitive};
+              .chart = hits[i].primitive,
+              .rest = {position, normal, tangent(at)}};
   }
 }
 

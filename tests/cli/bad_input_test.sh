@@ -34,7 +34,7 @@ accepts() {
 }
 
 accepts "redmap bake" --help
-for command in bake render compare inspect list mesh; do accepts "--threads" $command --help; done
+for command in bake render compare inspect list mesh unwrap; do accepts "--threads" $command --help; done
 accepts "quality" bench --help
 accepts "noise" list
 accepts "checker" list shaders

@@ -79,7 +79,7 @@ TEST(GltfImport, BrokenFiles_AreRefusedAtTheirKey) {
            {dark, "light \"sun\": expected a finite place and an intensity from 0"},
            {distant, "light \"lamp\": expected a finite place and an intensity from 0"},
            {truncated, "expected sound glTF"},
-           {"", "expected sound glTF"}}) {
+           {"", "found an empty file"}}) {
     write(folder, "broken.gltf", text);
     const auto path = write(folder, "a.toml", "[import]\ngltf='broken.gltf'\n");
     EXPECT_TRUE(mentions(error_message([&] { SceneFile::load(path); }), "a.toml:2:6: import.gltf: "));

@@ -102,7 +102,7 @@ TEST(SceneFile, EverythingWritten_IsRead) {
 TEST(SceneFile, Objects_HaveSurfaceShaderMapAndPlace) {
   const TemporaryFolder folder;
   const SceneFile file = SceneFile::load(write(folder, "a.toml", kScene));
-  const Object& ball = file.object("ball");
+  const Object ball = file.objects("ball").front();
   EXPECT_EQ(ball.surface->fingerprint(), make_sphere(1.5f)->fingerprint());
   EXPECT_EQ(ball.shader->info().name, "noise");
   EXPECT_EQ(ball.map_path, folder / "maps/ball.exr");
@@ -110,11 +110,11 @@ TEST(SceneFile, Objects_HaveSurfaceShaderMapAndPlace) {
   EXPECT_EQ(ball.transform.translate, (Vec3{1, 2, 3}));
   EXPECT_EQ(ball.transform.rotate_degrees, (Vec3{10, 20, 30}));
   EXPECT_EQ(ball.transform.scale, 0.5f);
-  const Object& can = file.object("can");
+  const Object can = file.objects("can").front();
   EXPECT_EQ(can.surface->fingerprint(), make_cylinder(1, 2)->fingerprint());
   EXPECT_EQ(can.map_path, folder / "elsewhere/can.exr");
   EXPECT_EQ(can.map_size, 1024);
-  EXPECT_TRUE(mentions(error_message([&] { file.object("bal"); }), "did you mean \"ball\""));
+  EXPECT_TRUE(mentions(error_message([&] { file.objects("bal"); }), "did you mean \"ball\""));
 }
 
 TEST(SceneFile, Frames_FollowKeysInAnyOrder_AndTheTurntable) {
@@ -171,8 +171,8 @@ TEST(SceneFile, Overrides_AreAsIfWrittenInTheFile) {
   EXPECT_EQ(scene.camera.width, 320);
   EXPECT_EQ(scene.lights[0].position, (Vec3{9, 9, 9}));
   EXPECT_EQ(scene.background, (Rgb{0.25f, 0.25f, 0.25f}));
-  EXPECT_EQ(file.object("can").shader->info().name, "noise");
-  EXPECT_FLOAT_EQ(file.object("ball").shader->parameters().front().front(), value);
+  EXPECT_EQ(file.objects("can").front().shader->info().name, "noise");
+  EXPECT_FLOAT_EQ(file.objects("ball").front().shader->parameters().front().front(), value);
 }
 
 }  // namespace
