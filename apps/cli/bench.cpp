@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "base/parallel.h"
@@ -69,10 +70,11 @@ void print_table(const std::vector<bench::QualityRow>& rows) {
 
 void run_bench_quality(BenchQualityOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
-  Progress progress("measuring");
-  options.quality.progress = [&](double part, const std::string&) { progress.update(part); };
+  std::optional<Progress> progress(std::in_place, "measuring");
+  options.quality.progress = [&](double part, const std::string&) { progress->update(part); };
   options.quality.cancelled = interrupted;
   const auto rows = bench::measure_quality(options.quality);
+  progress.reset();
   print_table(rows);
   nlohmann::json json{{"machine", machine_json()}, {"rows", nlohmann::json::array()}};
   for (const bench::QualityRow& row : rows) json["rows"].push_back(row_json(row));
@@ -105,10 +107,12 @@ void add_bench_command(CLI::App& app) {
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
   sub->add_option("--reference-spp", quality.reference_spp, "Samples a pixel of the reference, in two halves")
-      ->check(CLI::Range(2, 1 << 20))
+      ->check(CLI::Range(8, 1 << 20))
       ->capture_default_str();
-  sub->add_option("--views", quality.views, "Views a case (as many as its error needs if not given)");
+  sub->add_option("--views", quality.views, "Views a case (as many as its error needs if not given)")
+      ->check(CLI::Range(1, 1000));
   sub->add_option("--flicker-frames", quality.flicker_frames, "Frames of the two flicker sequences; 0: none")
+      ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   sub->add_option("--models", quality.models, "Folder of bunny_10k.obj and dragon_20k.obj")->capture_default_str();
   add_common_options(*sub, options->common);

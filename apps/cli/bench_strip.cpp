@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "base/image.h"
@@ -29,7 +30,7 @@ struct BenchStripOptions {
 
 void check_inset(const bench::StripOptions& strip, const Camera& camera) {
   if (strip.inset_x < 0 || strip.inset_y < 0 || strip.inset_width < 1 || strip.inset_height < 1 ||
-      strip.inset_x + strip.inset_width > camera.width || strip.inset_y + strip.inset_height > camera.height)
+      strip.inset_x > camera.width - strip.inset_width || strip.inset_y > camera.height - strip.inset_height)
     throw Error("--inset {},{},{},{}: expected a part of the {} x {} picture", strip.inset_x, strip.inset_y,
                 strip.inset_width, strip.inset_height, camera.width, camera.height);
   if (strip.inset_width * strip.inset_zoom + 8 > camera.width ||
@@ -46,9 +47,11 @@ void run_bench_strip(BenchStripOptions& options) {
     options.strip.inset_width = options.inset[2], options.strip.inset_height = options.inset[3];
   }
   check_inset(options.strip, scene.camera);
-  Progress progress("rendering the strip");
-  options.strip.progress = [&](double part) { progress.update(part); };
+  std::optional<Progress> progress(std::in_place, "rendering the strip");
+  options.strip.progress = [&](double part) { progress->update(part); };
+  options.strip.cancelled = interrupted;
   const auto panels = bench::render_strip(scene, load_object_data(scene, Method::kMap), options.strip);
+  progress.reset();
   stop_if_interrupted();
   write_image(bench::compose_strip(panels, options.strip), options.output);
   nlohmann::json json{{"machine", machine_json()}, {"panels", nlohmann::json::array()}};
@@ -73,7 +76,7 @@ void add_bench_strip(CLI::App& bench_app) {
       ->expected(4);
   sub->add_option("--zoom", options->strip.inset_zoom, "How often")->check(CLI::Range(1, 64))->capture_default_str();
   sub->add_option("--reference-spp", options->strip.reference_spp, "Samples a pixel of the reference")
-      ->check(CLI::Range(2, 1 << 20))
+      ->check(CLI::Range(8, 1 << 20))
       ->capture_default_str();
   add_override_option(*sub, options->overrides);
   add_common_options(*sub, options->common);

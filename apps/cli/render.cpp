@@ -4,6 +4,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -38,7 +39,7 @@ RenderOptions render_options(const RenderCommandOptions& options) {
   RenderOptions render;
   render.method = method_of(options.method);
   render.quality = options.quality == "fast" ? Quality::kFast : Quality::kDefault;
-  render.spp = options.spp > 0 ? options.spp : render.method == Method::kSupersample ? 16 : 0;
+  render.spp = options.spp;
   render.seed = options.seed;
   render.cancelled = interrupted;
   return render;
@@ -89,9 +90,7 @@ bool is_finished(const std::filesystem::path& picture, std::uint64_t fingerprint
 }
 
 void remember_finished(const std::filesystem::path& picture, std::uint64_t fingerprint) {
-  AtomicFile file(fingerprint_path(picture));
-  std::ofstream(file.path()) << fingerprint_text(picture, fingerprint);
-  file.commit();
+  write_file(fingerprint_path(picture), fingerprint_text(picture, fingerprint));
 }
 
 nlohmann::json frame_json(int frame, const std::string& path, const RenderedFrame& rendered) {
@@ -122,7 +121,7 @@ void run_render(const RenderCommandOptions& options) {
   const std::uint64_t settings = settings_fingerprint(render, file.at(frames.front()));
 
   std::unique_ptr<Renderer> renderer;  // made once a frame really has to be rendered
-  Progress progress("rendering");
+  std::optional<Progress> progress(std::in_place, "rendering");
   nlohmann::json rows = nlohmann::json::array();
   std::size_t skipped = 0;
   double seconds = 0;
@@ -140,7 +139,7 @@ void run_render(const RenderCommandOptions& options) {
       report_maps(scene, data);
       RenderOptions with_progress = render;
       with_progress.progress = [&progress, &frames, &i](double part) {
-        progress.update((static_cast<double>(i) + part) / static_cast<double>(frames.size()));
+        progress->update((static_cast<double>(i) + part) / static_cast<double>(frames.size()));
       };
       renderer = std::make_unique<Renderer>(scene, with_progress, data);
     }
@@ -151,6 +150,7 @@ void run_render(const RenderCommandOptions& options) {
     rows.push_back(frame_json(frames[i], path, rendered));
     seconds += rendered.seconds;
   }
+  progress.reset();
   write_json(options.common.json, {{"method", options.method}, {"frames", rows}, {"skipped", skipped}});
   fmt::print("{} frame(s) by {} in {:.2f} s", rows.size(), options.method, seconds);
   fmt::print("{}\n", skipped ? fmt::format(", {} already finished", skipped) : "");

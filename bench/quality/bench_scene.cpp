@@ -111,9 +111,8 @@ Scene make_bench_scene(const std::shared_ptr<const Surface>& surface, const std:
   // Views are spread by the golden angle, so that no two show the same side.
   object.transform.rotate_degrees = {10.0f * std::sin(1.7f * static_cast<float>(view)),
                                      17.0f + 137.508f * static_cast<float>(view), 0};
-  const Vec3 centre = (surface->lower() + surface->upper()) * 0.5f;
-  object.transform.translate = -make_placement(object.transform).direction_world(centre);
   scene.objects.push_back(std::move(object));
+  scene = turned(scene, 0);
   // Irradiance about pi at the object, as in the prototypes: a white Lambert surface facing the light is about 1.
   const float radius = bounding_radius(*surface);
   Light light;
@@ -132,6 +131,15 @@ Scene make_bench_scene(const std::shared_ptr<const Surface>& surface, const std:
   }
   scene.camera = camera_at(distance, radius);
   return scene;
+}
+
+Scene turned(const Scene& scene, double degrees) {
+  Scene result = scene;
+  Object& object = result.objects.front();
+  object.transform.rotate_degrees.y += static_cast<float>(degrees);
+  const Vec3 centre = (object.surface->lower() + object.surface->upper()) * 0.5f;
+  object.transform.translate = -make_placement(object.transform).direction_world(centre);
+  return result;
 }
 
 double degrees_for_pixels(const Scene& scene, double pixels) {

@@ -18,6 +18,9 @@ std::shared_ptr<const Surface> make_bench_surface(const std::string& object, con
 Scene make_bench_scene(const std::shared_ptr<const Surface>& surface, const std::shared_ptr<const Shader>& shader,
                        int map_size, double minification, int view);
 
+/// `scene` with its object turned further about its own centre.
+Scene turned(const Scene& scene, double degrees);
+
 /// That median, over pixels whose centre hits the object.
 double median_minification(const Scene& scene);
 

@@ -121,11 +121,15 @@ RenderOptions options_of(const MethodCase& method) {
   return options;
 }
 
+/// Whether one averaged material can stand in for the shader at all.
+bool has_parameters(const ShaderInfo& shader) { return shader.has_material && !shader.emits; }
+
 bool has_quality(Method method) { return method == Method::kMap || method == Method::kParameters; }
 
 void measure_speed(const Case& c, const RenderOptions& options, int repeats, QualityRow& row) {
   Renderer renderer(c.views.front(), options, c.data);
-  const double pixels = static_cast<double>(c.references.front().pixels()) * static_cast<double>(c.views.size());
+  double pixels = 0;
+  for (const Image& reference : c.references) pixels += static_cast<double>(reference.pixels());
   double best = std::numeric_limits<double>::infinity();
   RenderCounts counts;
   for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -160,12 +164,7 @@ std::vector<double> measure_flicker(const Case& c, const std::vector<MethodCase>
   std::vector<FlickerMeter> meters(methods.size());
   ErrorSums unused;
   for (int frame = 0; frame < options.flicker_frames; ++frame) {
-    Scene scene = c.views.front();
-    scene.objects.front().transform.rotate_degrees.y += static_cast<float>(degrees * frame);
-    const Vec3 centre = (scene.objects.front().surface->lower() + scene.objects.front().surface->upper()) * 0.5f;
-    scene.objects.front().transform.translate = {};
-    scene.objects.front().transform.translate =
-        -make_placement(scene.objects.front().transform).direction_world(centre);
+    const Scene scene = turned(c.views.front(), degrees * frame);
     std::vector<PixelClass> classes;
     const Image reference = render_reference(scene, c.data, options.reference_spp, frame, classes, unused);
     const Image mask = interior_mask(reference, classes);
@@ -182,7 +181,7 @@ std::vector<MethodCase> methods_of(const QualityOptions& options, const Shader& 
                               {Method::kSupersample, Quality::kDefault, 4},
                               {Method::kSupersample, Quality::kDefault, 16},
                               {Method::kSupersample, Quality::kDefault, 64}};
-  if (shader.info().has_material)
+  if (has_parameters(shader.info()))
     for (Quality quality : {Quality::kFast, Quality::kDefault}) all.push_back({Method::kParameters, quality, 0});
   all.push_back({Method::kPaper, Quality::kDefault, 0});
   for (Quality quality : {Quality::kFast, Quality::kDefault}) all.push_back({Method::kMap, quality, 0});
@@ -221,12 +220,14 @@ void measure_case(const Case& c, const QualityRow& labels, const std::vector<Met
     rows[first + i].flicker = fast[i], rows[first + i].flicker_slow = slow[i];
 }
 
-std::vector<ObjectData> bake_data(const Surface& surface, const Shader& shader, int map_size) {
+std::vector<ObjectData> bake_data(const Surface& surface, const Shader& shader, int map_size,
+                                  const std::function<bool()>& cancelled) {
   ObjectData data;
   BakeOptions bake_options;
   bake_options.size = map_size;
+  bake_options.progress = [&](float, std::string_view) { return !(cancelled && cancelled()); };
   data.map = std::make_shared<const ReductionMap>(bake(surface, shader, bake_options));
-  if (shader.info().has_material)
+  if (has_parameters(shader.info()))
     data.parameters = std::make_shared<const Pyramid<float>>(build_parameter_pyramid(surface, shader, map_size));
   data.normals = std::make_shared<const Pyramid<float>>(build_normal_pyramid(surface, map_size));
   return {data};
@@ -238,6 +239,9 @@ std::vector<std::string> quality_methods() { return {std::begin(kMethodNames), s
 
 std::vector<QualityRow> measure_quality(const QualityOptions& options) {
   const std::vector<std::string> shaders = options.shaders.empty() ? library_shader_names() : options.shaders;
+  // Whatever is misspelt is found before hours are spent.
+  for (const std::string& name : shaders) library_shader_info(name);
+  for (const std::string& object : options.objects) make_bench_surface(object, options.models);
   std::vector<QualityRow> rows;
   const double total = static_cast<double>(options.objects.size() * shaders.size() * options.minifications.size());
   double done = 0;
@@ -245,7 +249,7 @@ std::vector<QualityRow> measure_quality(const QualityOptions& options) {
     const auto surface = make_bench_surface(object, options.models);
     for (const std::string& name : shaders) {
       const std::shared_ptr<const Shader> shader = make_library_shader(name);
-      const auto data = bake_data(*surface, *shader, options.map_size);
+      const auto data = bake_data(*surface, *shader, options.map_size, options.cancelled);
       for (double minification : options.minifications) {
         if (options.cancelled && options.cancelled()) throw Error("the bench was cancelled");
         if (options.progress) options.progress(done++ / total, object + " " + name);

@@ -30,7 +30,8 @@ double rmse_between(const Image& image, const Image& reference) {
 }
 
 StripPanel render_panel(std::string label, const Scene& scene, const std::vector<ObjectData>& data,
-                        const RenderOptions& options, int repeats) {
+                        RenderOptions options, const StripOptions& strip, int repeats) {
+  options.cancelled = strip.cancelled;
   Renderer renderer(scene, options, data);
   StripPanel panel{std::move(label), std::numeric_limits<double>::infinity(), 0, {}};
   for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -60,14 +61,14 @@ std::vector<StripPanel> render_strip(const Scene& scene, const std::vector<Objec
   };
   report(0);
   std::vector<StripPanel> panels;
-  panels.push_back(render_panel("1 sample a pixel", scene, data, supersampled(1, 0), options.repeats));
-  panels.push_back(render_panel("redmap", scene, data, {}, options.repeats));
+  panels.push_back(render_panel("1 sample a pixel", scene, data, supersampled(1, 0), options, options.repeats));
+  panels.push_back(render_panel("redmap", scene, data, {}, options, options.repeats));
   report(0.1);
   // Two independent halves tell how far the reference itself can be trusted.
   StripPanel reference = render_panel(fmt::format("reference, {} samples", options.reference_spp), scene, data,
-                                      supersampled(options.reference_spp / 2, 1), 1);
+                                      supersampled(options.reference_spp / 2, 1), options, 1);
   report(0.55);
-  const StripPanel half = render_panel("", scene, data, supersampled(options.reference_spp / 2, 2), 1);
+  const StripPanel half = render_panel("", scene, data, supersampled(options.reference_spp / 2, 2), options, 1);
   reference.rmse = rmse_between(reference.image, half.image) / 2;
   reference.seconds += half.seconds;
   for (std::size_t i = 0; i < reference.image.data.size(); ++i)

@@ -18,6 +18,7 @@ struct StripOptions {
   int inset_zoom = 3;
   int repeats = 3;  ///< times are the fastest of so many frames
   std::function<void(double)> progress;
+  std::function<bool()> cancelled;  ///< the pictures are not whole after it answered true
 };
 
 struct StripPanel {

@@ -1,9 +1,6 @@
 #include "render/filtered_shading.h"
 
 #include <algorithm>
-#include <array>
-
-#include "base/error.h"
 
 namespace redmap {
 
@@ -77,12 +74,25 @@ void FilteredShading::shade(const ShadingBatch& batch, ShadedBatch& out, RenderC
 
 void FilteredShading::transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints, float time,
                                     Planes<3>& out) const {
-  original_->transmittance(hits, footprints, time, out);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
+  out = Planes<3>(hits.size());
+  if (!transmits_) return;
+  std::vector<std::uint32_t> near_hits;
+  std::vector<SurfaceHit> near_surface;
+  for (std::uint32_t i = 0; i < hits.size(); ++i) {
     const float part = filtered_part(footprints[i]);
+    if (part < 1) near_hits.push_back(i), near_surface.push_back(hits[i]);
     if (part == 0) continue;
     const Rgb t = filtered_transmittance(footprints[i]);
-    blend_into(out, i, {t.r, t.g, t.b}, part);
+    out.set(i, Vec3{t.r, t.g, t.b});
+  }
+  if (near_hits.empty()) return;
+  Planes<3> original;
+  original_->transmittance(near_surface, {}, time, original);
+  for (std::size_t k = 0; k < near_hits.size(); ++k) {
+    const float part = filtered_part(footprints[near_hits[k]]);
+    const Vec3 filtered = out.get(near_hits[k]);
+    out.set(near_hits[k], original.get(k));
+    if (part > 0) blend_into(out, near_hits[k], filtered, part);
   }
 }
 
@@ -145,28 +155,10 @@ std::vector<LaneVector<float>> lookup_weights(const ReductionMap& map, std::span
                                               LookupFilter filter, RenderCounts& counts) {
   const std::size_t basis = map.basis.size();
   std::vector<LaneVector<float>> weights(basis, LaneVector<float>(padded(footprints.size()), 0.0f));
-  std::array<FilteredTexel, kLookupBatch> texels;
-  for (std::size_t first = 0; first < footprints.size(); first += kLookupBatch) {
-    const std::size_t count = std::min(kLookupBatch, footprints.size() - first);
-    map.weights.lookup(footprints.subspan(first, count), filter, {texels.data(), count});
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t b = 0; b < basis; ++b) weights[b][first + i] = texels[i].channel[b];
-  }
-  counts.lookups += footprints.size();
+  for_each_lookup(map.weights, footprints, filter, counts, [&](std::size_t i, const FilteredTexel& texel) {
+    for (std::size_t b = 0; b < basis; ++b) weights[b][i] = texel.channel[b];
+  });
   return weights;
-}
-
-void require_same_shader(const Shader& shader, const ReductionMap& map) {
-  if (map.shader != shader.info().name)
-    throw Error("the map was baked from shader '{}', the object has '{}': bake it again", map.shader,
-                shader.info().name);
-  for (std::size_t i = 0; i < shader.info().parameters.size(); ++i) {
-    const std::string& name = shader.info().parameters[i].name;
-    const auto found = map.parameters.find(name);
-    if (found == map.parameters.end() || found->second != shader.parameters()[i])
-      throw Error("the map of shader '{}' was baked with another value of parameter '{}': bake it again", map.shader,
-                  name);
-  }
 }
 
 }  // namespace redmap

@@ -29,7 +29,6 @@ class MapShading : public FilteredShading {
 
 std::unique_ptr<ObjectShading> make_map_shading(std::shared_ptr<const Shader> shader,
                                                 std::shared_ptr<const ReductionMap> map) {
-  require_same_shader(*shader, *map);
   return std::make_unique<MapShading>(std::move(shader), std::move(map));
 }
 

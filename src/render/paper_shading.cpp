@@ -29,11 +29,11 @@ class PaperShading : public FilteredShading {
     const auto weights = lookup_weights(*map_, batch.footprints, LookupFilter::kEnclosingSquare, counts);
     // The stored mean normal takes the place of the hit's.
     std::vector<Frame> frames(batch.size());
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const FilteredTexel texel = normals_->lookup(batch.footprints[i], LookupFilter::kEnclosingSquare);
+    const auto use_mean = [&](std::size_t i, const FilteredTexel& texel) {
       const Vec3 mean = normalized({texel.channel[0], texel.channel[1], texel.channel[2]});
       frames[i] = make_frame(batch.turned[i] ? -mean : mean, batch.hits[i].tangent);
-    }
+    };
+    for_each_lookup(*normals_, batch.footprints, LookupFilter::kEnclosingSquare, counts, use_mean);
     basis_.shade(batch, frames, weights, out, counts);
   }
 
@@ -52,7 +52,6 @@ class PaperShading : public FilteredShading {
 std::unique_ptr<ObjectShading> make_paper_shading(std::shared_ptr<const Shader> shader,
                                                   std::shared_ptr<const ReductionMap> map,
                                                   std::shared_ptr<const Pyramid<float>> normals) {
-  require_same_shader(*shader, *map);
   return std::make_unique<PaperShading>(std::move(shader), std::move(map), std::move(normals));
 }
 

@@ -25,6 +25,17 @@ float kernel_roughness(const SurfaceHit& hit, const Footprint& footprint) {
   return std::min(2 * kPixelVariance * (dot(dx, dx) + dot(dy, dy)), kMaximumKernelRoughness);
 }
 
+void set_material(const FilteredTexel& texel, const ShadingBatch& batch, std::size_t i, Materials& materials) {
+  const auto& p = texel.channel;
+  materials.diffuse.set(i, Vec3{p[kDiffuse], p[kDiffuse + 1], p[kDiffuse + 2]});
+  materials.specular.set(i, Vec3{p[kSpecular], p[kSpecular + 1], p[kSpecular + 2]});
+  materials.transmittance.set(i, Vec3{p[kTransmittance], p[kTransmittance + 1], p[kTransmittance + 2]});
+  // Phong exponent e and roughness a: a^2 = 2 / (e + 2).
+  const float mean = 2 * p[kWeightedRoughness] / std::max(p[kSpecularLuminance], 1e-9f);
+  const float roughness = mean + kernel_roughness(batch.hits[i], batch.footprints[i]);
+  materials.exponent[0][i] = std::clamp(2 / std::max(roughness, 1e-6f) - 2, 0.0f, 1e6f);
+}
+
 class ParametersShading : public FilteredShading {
  public:
   ParametersShading(std::shared_ptr<const Shader> shader, std::shared_ptr<const Pyramid<float>> parameters)
@@ -34,17 +45,8 @@ class ParametersShading : public FilteredShading {
   void shade_filtered(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
     Materials materials;
     materials.resize(batch.size());
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      const auto& p = parameters_->lookup(batch.footprints[i], LookupFilter::kVarianceMatched).channel;
-      materials.diffuse.set(i, Vec3{p[kDiffuse], p[kDiffuse + 1], p[kDiffuse + 2]});
-      materials.specular.set(i, Vec3{p[kSpecular], p[kSpecular + 1], p[kSpecular + 2]});
-      materials.transmittance.set(i, Vec3{p[kTransmittance], p[kTransmittance + 1], p[kTransmittance + 2]});
-      // Phong exponent e and roughness a: a^2 = 2 / (e + 2).
-      const float mean = 2 * p[kWeightedRoughness] / std::max(p[kSpecularLuminance], 1e-9f);
-      const float roughness = mean + kernel_roughness(batch.hits[i], batch.footprints[i]);
-      materials.exponent[0][i] = std::clamp(2 / std::max(roughness, 1e-6f) - 2, 0.0f, 1e6f);
-    }
-    counts.lookups += batch.size();
+    const auto use = [&](std::size_t i, const FilteredTexel& texel) { set_material(texel, batch, i, materials); };
+    for_each_lookup(*parameters_, batch.footprints, LookupFilter::kVarianceMatched, counts, use);
     out.radiance = Planes<3>(batch.size());
     Planes<3> radiance;
     for (std::size_t light = 0; light < batch.lights.size(); ++light) {
@@ -70,6 +72,8 @@ std::unique_ptr<ObjectShading> make_parameters_shading(std::shared_ptr<const Sha
                                                        std::shared_ptr<const Pyramid<float>> parameters) {
   if (!shader->info().has_material)
     throw Error("shader '{}' does not declare material(): --method parameters needs it", shader->info().name);
+  if (shader->info().emits)
+    throw Error("shader '{}' emits light: --method parameters has no parameter for it", shader->info().name);
   return std::make_unique<ParametersShading>(std::move(shader), std::move(parameters));
 }
 

@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "render/filtered_shading.h"
 #include "render/tile.h"
 
 namespace redmap {
@@ -28,10 +27,43 @@ std::unique_ptr<ObjectShading> make_shading(const Object& object, Method method,
   return make_shader_shading(object.shader);
 }
 
-void require_same_surface(const Object& object, const ReductionMap& map) {
-  if (map.surface_fingerprint != object.surface->fingerprint())
-    throw Error("object '{}': its map {} was baked on another surface: bake it again", object.name,
-                object.map_path.string());
+/// Throws Error unless `map` was baked for `object` as it is now.
+void require_map_of(const Object& object, const ReductionMap& map) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error("object '{}': its map {} was baked {}: bake it again", object.name, object.map_path.string(), what);
+  };
+  const ShaderInfo& shader = object.shader->info();
+  if (map.surface_fingerprint != object.surface->fingerprint()) refuse("on another surface");
+  if (map.shader != shader.name) refuse(fmt::format("from shader '{}', not '{}'", map.shader, shader.name));
+  for (std::size_t i = 0; i < shader.parameters.size(); ++i) {
+    const std::string& name = shader.parameters[i].name;
+    const auto found = map.parameters.find(name);
+    if (found == map.parameters.end() || found->second != object.shader->parameters()[i])
+      refuse(fmt::format("with another value of parameter '{}'", name));
+  }
+}
+
+/// Throws Error if something that the method needs is missing.
+void require_data(const Object& object, Method method, const ObjectData& data) {
+  const bool uses_map = method == Method::kMap || method == Method::kPaper;
+  if (uses_map && !data.map)
+    throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
+  if (uses_map) require_map_of(object, *data.map);
+  if (method == Method::kPaper && !data.normals) throw Error("object '{}' has no mean normals", object.name);
+  if (method == Method::kParameters && object.shader->info().has_material && !data.parameters)
+    throw Error("object '{}' has no averaged parameters", object.name);
+}
+
+/// What 0 samples stand for, and what is too many.
+RenderOptions checked(RenderOptions options) {
+  constexpr int kMostSamples = 1 << 20, kMostGridSamples = 256;
+  if (options.method == Method::kSupersample && options.spp == 0) options.spp = 16;  // what the paper compares with
+  if (options.spp < 0 || options.spp > kMostSamples)
+    throw Error("{} samples a pixel: expected 1 to {}", options.spp, kMostSamples);
+  const Strata strata = strata_of(std::max(options.spp, 1));
+  if (options.method == Method::kOriginal && (strata.columns != strata.rows || options.spp > kMostGridSamples))
+    throw Error("{} samples a pixel for original: expected a square number up to {}", options.spp, kMostGridSamples);
+  return options;
 }
 
 std::vector<Tile> tiles_of(const Camera& camera, int size) {
@@ -45,26 +77,25 @@ std::vector<Tile> tiles_of(const Camera& camera, int size) {
 }  // namespace
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options, const std::vector<ObjectData>& data)
-    : options_(options), tracer_(scene) {
-  const bool uses_map = options.method == Method::kMap || options.method == Method::kPaper;
+    : options_(checked(options)), tracer_(scene) {
+  if (data.size() != scene.objects.size())
+    throw Error("renderer: {} objects, but data for {}", scene.objects.size(), data.size());
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    bool supersampled = false;
-    if (uses_map) {
-      if (!data[i].map) throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
-      require_same_surface(object, *data[i].map);
-      require_same_shader(*object.shader, *data[i].map);
-      supersampled = data[i].map->verdict == MapVerdict::kDoesNotReduce;
-    }
+    require_data(object, options_.method, data[i]);
+    const bool supersampled = data[i].map && (options_.method == Method::kMap || options_.method == Method::kPaper) &&
+                              data[i].map->verdict == MapVerdict::kDoesNotReduce;
     supersampled_.push_back(supersampled);
     shading_.push_back(supersampled ? make_shader_shading(object.shader)
-                                    : make_shading(object, options.method, data[i]));
+                                    : make_shading(object, options_.method, data[i]));
     transmits_ |= object.shader->info().transmits;
   }
 }
 
 RenderedFrame Renderer::render(const Scene& scene, int frame) {
   const auto start = std::chrono::steady_clock::now();
+  if (scene.objects.size() != shading_.size())
+    throw Error("renderer: made for {} objects, asked to render {}", shading_.size(), scene.objects.size());
   tracer_.set_frame(scene);
   RenderedFrame result;
   result.image = Image(scene.camera.width, scene.camera.height, 3);

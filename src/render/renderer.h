@@ -33,7 +33,8 @@ enum class Quality {
 struct RenderOptions {
   Method method = Method::kMap;
   Quality quality = Quality::kDefault;
-  int spp = 16;  ///< for supersample; with original 0: the map's rays, else a regular grid of as many
+  int spp = 0;  ///< supersample: samples, 0 means 16. original: a regular grid of a square number of samples, 0: the
+                ///< map's rays
   std::uint64_t seed = 0;
   bool classify = false;                 ///< supersample only: tell pixels apart by what their samples saw
   std::function<void(double)> progress;  ///< called now and then, from any thread, with the part done
@@ -64,7 +65,8 @@ struct ObjectData {
 
 class Renderer {
  public:
-  /// `data` has one entry an object. Throws Error if something that the method needs is missing or of another shader.
+  /// `data` has one entry an object. Throws Error if something that the method needs is missing, or was made for
+  /// another surface, shader or parameters, and on samples out of range.
   Renderer(const Scene& scene, const RenderOptions& options, const std::vector<ObjectData>& data);
 
   /// Renders the same objects as they stand in `scene`. `frame` decides the random numbers.

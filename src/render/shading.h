@@ -60,7 +60,8 @@ class ObjectShading {
 std::unique_ptr<ObjectShading> make_shader_shading(std::shared_ptr<const Shader> shader);
 
 /// The object's reduction map, anisotropic and variance matched, blending into the shader itself over footprints whose
-/// major axis is .5 to 1 texel; under that it is the shader, bit for bit. Throws Error if the map is of another shader.
+/// major axis is .5 to 1 texel; under that it is the shader, bit for bit. The map has to be
+/// of this shader.
 std::unique_ptr<ObjectShading> make_map_shading(std::shared_ptr<const Shader> shader,
                                                 std::shared_ptr<const ReductionMap> map);
 

@@ -81,8 +81,16 @@ Refine difference(const FrameContext& frame, const SampleGrid& grid, std::span<c
 std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
   const std::vector<SampleView> views = view_grid(*job.frame, grid);
   std::vector<Refine> reasons(views.size(), Refine::kNo);
+  // Whether the sample sees, or may see through glass, an object whose map does not reduce.
+  const bool any_supersampled = std::count(job.supersampled->begin(), job.supersampled->end(), 1) > 0;
+  const auto supersampled = [&](std::size_t k) {
+    const std::uint32_t object = grid.traced.hits[k].object;
+    return any_supersampled && object != kNoObject &&
+           ((*job.supersampled)[object] || job.frame->scene->objects[object].shader->info().transmits);
+  };
   const auto compare = [&](std::size_t a, std::size_t b) {
-    const Refine reason = difference(*job.frame, grid, views, a, b);
+    Refine reason = difference(*job.frame, grid, views, a, b);
+    if (reason == Refine::kSilhouette && (supersampled(a) || supersampled(b))) reason = Refine::kSupersample;
     reasons[a] = std::max(reasons[a], reason);
     reasons[b] = std::max(reasons[b], reason);
   };
@@ -94,8 +102,7 @@ std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
       const std::size_t k = grid.index(column, row);
       if (together(i, grid.width)) compare(k, grid.index(column + 1, row));
       if (together(j, grid.height)) compare(k, grid.index(column, row + 1));
-      const std::uint32_t object = grid.traced.hits[k].object;
-      if (object != kNoObject && (*job.supersampled)[object]) reasons[k] = Refine::kSupersample;
+      if (supersampled(k)) reasons[k] = Refine::kSupersample;
     }
   return reasons;
 }

@@ -48,17 +48,19 @@ bool corners_agree(const CornerGrid& grid, const std::size_t (&corner)[4]) {
   return true;
 }
 
-/// The axis-aligned square around the four corners, in uv.
-Footprint enclosing_square(const CornerGrid& grid, const std::size_t (&corner)[4], bool wraps_u) {
+/// The axis-aligned square of texels around the four corners.
+Footprint enclosing_square(const CornerGrid& grid, const std::size_t (&corner)[4], const Surface& surface) {
+  const Extent extent = surface.map_extent(1024);  // only its proportions matter
+  const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
   Vec2 lo = grid.uv[corner[0]], hi = lo;
   for (std::size_t k : corner) {
     Vec2 uv = grid.uv[k];
-    if (wraps_u) uv.x -= std::round(uv.x - grid.uv[corner[0]].x);  // the corner's image nearest to the first
+    if (surface.wraps_u()) uv.x -= std::round(uv.x - grid.uv[corner[0]].x);  // the corner's image nearest to the first
     lo = {std::min(lo.x, uv.x), std::min(lo.y, uv.y)};
     hi = {std::max(hi.x, uv.x), std::max(hi.y, uv.y)};
   }
-  const float side = std::max({hi.x - lo.x, hi.y - lo.y, 1e-9f});
-  return {(lo + hi) * 0.5f, {side, 0}, {0, side}};
+  const float side = std::max({(hi.x - lo.x) * aspect, hi.y - lo.y, 1e-9f});
+  return {(lo + hi) * 0.5f, {side / aspect, 0}, {0, side}};
 }
 
 }  // namespace
@@ -67,6 +69,10 @@ RenderCounts render_paper(const TileJob& job, Tile tile) {
   RenderCounts counts;
   const CornerGrid grid = trace_corners(job, tile, counts);
   TracedSamples whole, subdivided;
+  std::vector<std::size_t> first_corner;  // of every sample of `whole`
+  const auto subdivide = [&](std::uint32_t pixel) {
+    append_pixel_samples(pixel, job.image_width, kSubdivision, kSubdivision, 0, subdivided.samples);
+  };
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
       const int i = x - tile.x0, j = y - tile.y0;
@@ -77,15 +83,30 @@ RenderCounts render_paper(const TileJob& job, Tile tile) {
       const bool reduces = object == kNoObject || !(*job.supersampled)[object];
       counts.supersampled_pixels += !reduces;
       if (!reduces || !corners_agree(grid, corner)) {
-        append_pixel_samples(pixel, job.image_width, kSubdivision, kSubdivision, 0, subdivided.samples);
+        subdivide(pixel);
         continue;
       }
       append_pixel_samples(pixel, job.image_width, 1, 1, 0, whole.samples);
-      const bool wraps = object != kNoObject && job.frame->scene->objects[object].surface->wraps_u();
-      whole.footprints.push_back(object == kNoObject ? Footprint{} : enclosing_square(grid, corner, wraps));
+      whole.footprints.push_back(object == kNoObject
+                                     ? Footprint{}
+                                     : enclosing_square(grid, corner, *job.frame->scene->objects[object].surface));
+      first_corner.push_back(corner[0]);
     }
   trace_samples(*job.frame, whole, counts);
-  shade_samples(*job.frame, whole, job.rgb, counts);
+  // Where the centre sees something that the corners missed, they say nothing about it.
+  std::vector<std::uint32_t> agreed;
+  for (std::uint32_t k = 0; k < whole.hits.size(); ++k) {
+    const RayHit& hit = whole.hits[k];
+    const std::uint32_t object = grid.hits[first_corner[k]].object;
+    const bool agrees = hit.object == object &&
+                        (object == kNoObject || job.frame->scene->objects[object].surface->chart(hit.where.primitive) ==
+                                                    grid.views[first_corner[k]].chart);
+    if (agrees)
+      agreed.push_back(k);
+    else
+      subdivide(whole.samples[k].pixel);
+  }
+  shade_samples(*job.frame, whole, agreed, job.rgb, counts);
   trace_samples(*job.frame, subdivided, counts);
   shade_samples(*job.frame, subdivided, job.rgb, counts);
   return counts;

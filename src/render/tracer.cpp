@@ -133,6 +133,7 @@ Tracer::Tracer(const Scene& scene) : embree_(std::make_unique<Embree>()), placem
   embree_->world = rtcNewScene(embree_->device);
   rtcSetSceneFlags(embree_->world, RTC_SCENE_FLAG_ROBUST);
   for (const Object& object : scene.objects) {
+    surfaces_.push_back(object.surface);
     embree_->surfaces.push_back(make_surface_scene(embree_->device, *object.surface));
     RTCGeometry instance = rtcNewGeometry(embree_->device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(instance, embree_->surfaces.back());

@@ -46,6 +46,7 @@ class Tracer {
 
  private:
   struct Embree;
+  std::vector<std::shared_ptr<const Surface>> surfaces_;  ///< Embree points into them
   std::unique_ptr<Embree> embree_;
   std::vector<Placement> placements_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -14,8 +15,9 @@ namespace {
 constexpr int kMaxLayers = 16;               // surfaces seen through, one behind the other
 constexpr float kMinimumThroughput = 1e-3f;  // a quarter of an 8-bit step: nothing behind it can be seen
 
-/// Rays leave a surface this far above it, as a part of the object's size: well over the error of a float hit.
-constexpr float kRayOffset = 1e-4f;
+/// Rays leave a surface this far above it, as a part of the object's size, and by some roundings of the numbers that
+/// led there: well over the error of a float hit, also of objects far away from the camera or the origin.
+constexpr float kRayOffset = 1e-4f, kRoundings = 4 * std::numeric_limits<float>::epsilon();
 
 /// Samples that have passed through the same number of transparent surfaces, and what they hit next.
 struct Layer {
@@ -59,8 +61,10 @@ std::vector<std::uint32_t> all_indices(std::size_t count) {
   return indices;
 }
 
-float offset_of(const Object& object) {
-  return kRayOffset * 0.5f * length(object.surface->upper() - object.surface->lower()) * object.transform.scale;
+/// `reach`: the largest distance or coordinate that the hit was computed from.
+float offset_of(const Object& object, float reach) {
+  return kRayOffset * 0.5f * length(object.surface->upper() - object.surface->lower()) * object.transform.scale +
+         kRoundings * reach;
 }
 
 /// Places `paths` on their surface, normals turned towards the viewer.
@@ -107,7 +111,6 @@ void light_hits(const FrameContext& frame, const Paths& paths, const Light& ligh
                 ShadingBatch::Light& lit, RenderCounts& counts) {
   const Object& object = frame.scene->objects[paths.hit(0).object];
   const Placement& placement = frame.tracer->placement(paths.hit(0).object);
-  const float offset = offset_of(object);
   lit.to_light.resize(paths.size());
   lit.irradiance = Planes<3>(paths.size());
 
@@ -117,6 +120,7 @@ void light_hits(const FrameContext& frame, const Paths& paths, const Light& ligh
   for (std::uint32_t i = 0; i < paths.size(); ++i) {
     const SurfaceHit& hit = batch.hits[i];
     const Vec3 position = placement.point_world(hit.position);
+    const float offset = offset_of(object, std::max(paths.hit(i).t, length(position)));
     const bool point = light.type == Light::Type::kPoint;
     const Vec3 path = point ? light.position - position : light.to_light;
     const float distance = point ? length(path) : std::numeric_limits<float>::max();
@@ -182,7 +186,7 @@ void shade_object(const FrameContext& frame, const Paths& paths, float* rgb, Ren
     const Rgb throughput = paths.throughput(i) * shaded.transmittance.rgb(i);
     if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
     Ray ray = paths.ray(i);
-    ray.t_near = paths.hit(i).t + offset_of(frame.scene->objects[object]);
+    ray.t_near = paths.hit(i).t + offset_of(frame.scene->objects[object], paths.hit(i).t);
     onward.sample.push_back(paths.sample(i));
     onward.throughput.push_back(throughput);
     onward.rays.push_back(ray);
@@ -225,7 +229,7 @@ bool pass_object(const FrameContext& frame, std::uint32_t object, std::span<cons
   for (std::size_t k = 0; k < owner.size(); ++k) {
     const std::uint32_t i = owner[k];
     passed[i] = passed[i] * transmittance.rgb(k);
-    rays[i].t_near = hits[i].t + offset_of(hit_object);
+    rays[i].t_near = hits[i].t + offset_of(hit_object, hits[i].t);
     if (passed[i] == Rgb{}) rays[i].t_far = -1;  // blocked: an empty interval is not traced again
   }
   return true;
