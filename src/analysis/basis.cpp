@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/parallel.h"
@@ -96,7 +97,8 @@ float ReflectanceBasis::fit(const float* scaled, BasisWeights& weights) const {
     }
     square += dot_rows(rest, rest, count);
   }
-  return std::sqrt(square / static_cast<float>(rows_));
+  // NaN would pass every comparison with a tolerance.
+  return std::isfinite(square) ? std::sqrt(square / static_cast<float>(rows_)) : std::numeric_limits<float>::infinity();
 }
 
 float ReflectanceBasis::distance(const float* weights_a, const float* weights_b) const {

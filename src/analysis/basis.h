@@ -32,7 +32,7 @@ class ReflectanceBasis {
   void remove(int index);
 
   /// Best non-negative weights for `scaled`, joint over the basis. Weights past size() are zero. Returns the residual:
-  /// RMS over the rows.
+  /// RMS over the rows; infinity where it is no number.
   float fit(const float* scaled, BasisWeights& weights) const;
   /// RMS over the rows of the difference of two mixtures.
   float distance(const float* weights_a, const float* weights_b) const;

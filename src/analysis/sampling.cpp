@@ -1,6 +1,7 @@
 #include "analysis/sampling.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace redmap {
@@ -13,7 +14,25 @@ void copy_rows(const Planes<3>& rgb, int first_row, SampledReflectances& out) {
   for (int c = 0; c < 3; ++c) std::copy_n(rgb[c], out.places, out.row(first_row + c));
 }
 
+/// Without their signs, floats are ordered like the integers of the same bits; NaN and infinity come last.
+bool is_unsound(float value) {
+  constexpr std::uint32_t kMagnitude = 0x7FFFFFFF;
+  return (std::bit_cast<std::uint32_t>(value) & kMagnitude) >= std::bit_cast<std::uint32_t>(kUnsoundValue);
+}
+
 }  // namespace
+
+std::optional<std::size_t> find_unsound_place(const SampledReflectances& sampled) {
+  std::size_t first = sampled.places;
+  for (int r = 0; r < sampled.rows; ++r) {
+    const float* row = sampled.row(r);
+    // Nearly always there is none: a loop without branches finds that out.
+    std::uint32_t any = 0;
+    for (std::size_t i = 0; i < sampled.places; ++i) any |= static_cast<std::uint32_t>(is_unsound(row[i]));
+    if (any) first = std::min(first, static_cast<std::size_t>(std::find_if(row, row + first, is_unsound) - row));
+  }
+  return first < sampled.places ? std::optional(first) : std::nullopt;
+}
 
 ReflectanceSampler::ReflectanceSampler(const ShaderInfo& shader)
     : directions_(reflection_samples()), transmits_(shader.transmits), emits_(shader.emits) {}

@@ -1,6 +1,7 @@
 // Sampling reflectances: every bound pattern becomes a vector of numbers (paper, section 4.2.1, the V_i).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "analysis/directions.h"
@@ -18,6 +19,11 @@ struct SampledReflectances {
   const float* row(int r) const { return values.data() + r * stride; }
   float* row(int r) { return values.data() + r * stride; }
 };
+
+/// Values from here on are as unsound as infinity: sums of their squares overflow (2^60, about 1e18).
+inline constexpr float kUnsoundValue = 0x1p60f;
+/// The first place with a value that is NaN, infinite or beyond kUnsoundValue; nothing if all are sound.
+std::optional<std::size_t> find_unsound_place(const SampledReflectances& sampled);
 
 /// Asks a shader: red, green and blue of each reflection sample, then of the transmittance (zero where the shader does
 /// not transmit), then of the emission if the shader emits.

@@ -94,7 +94,7 @@ ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOption
   stopwatch.lap("judge");
   monitor.begin("done", 1.0f);
   monitor.advance(1);
-  if (monitor.stopped()) throw BakeInterrupted();
+  monitor.throw_if_stopped();
   ours.peak_bytes = peak_bytes();
   if (report) *report = ours;
   return map;

@@ -56,7 +56,8 @@ class BakeInterrupted : public Error {
 };
 
 /// Bakes `shader` on `surface`. The result is the same for any number of threads. A shader that does not reduce gives a
-/// map that says so in its verdict. Throws Error on options out of range and on a surface without a covered texel.
+/// map that says so in its verdict. Throws Error on options out of range, on a surface without a covered texel, and
+/// where the shader returns anything but numbers, naming it and the place.
 ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options = {},
                   BakeReport* report = nullptr);
 

@@ -67,8 +67,14 @@ std::vector<std::uint8_t> fill_from_ids(const SampledTexels& sampled, const Know
 class PointProjection {
  public:
   PointProjection(const Shader& shader, const SampledTexels& sampled, const KnownWeights& known,
-                  const ChosenBasis& basis, const BakeOptions& options)
-      : shader_(shader), sampled_(sampled), known_(known), basis_(basis), options_(options), slots_(pipeline_slots()) {}
+                  const ChosenBasis& basis, const BakeOptions& options, BakeMonitor& monitor)
+      : shader_(shader),
+        sampled_(sampled),
+        known_(known),
+        basis_(basis),
+        options_(options),
+        monitor_(monitor),
+        slots_(pipeline_slots()) {}
 
   void evaluate(const SurfacePoints& points, std::span<const std::size_t> texel, std::size_t slot, float* out);
   void tile_done(std::size_t slot);
@@ -91,6 +97,7 @@ class PointProjection {
     std::vector<float> scaled;
     std::unordered_map<std::uint64_t, Fit> fits;  ///< of one batch: what is reused must not depend on the threads
     float residual = 0, outlier_residual = 0;
+    std::string problem;  ///< empty: none
     // The tile's outliers: their texels, and the worst of them.
     std::vector<std::size_t> outlier_texels;
     std::vector<float> outlier_scaled;
@@ -104,6 +111,7 @@ class PointProjection {
   const KnownWeights& known_;
   const ChosenBasis& basis_;
   const BakeOptions& options_;
+  BakeMonitor& monitor_;
   std::vector<Slot> slots_;
   float residual_ = 0, outlier_residual_ = 0;
   UniqueReflectances outliers_{sampled_.sampler.rows(), kMaxOutliers};
@@ -135,9 +143,14 @@ void PointProjection::evaluate(const SurfacePoints& points, std::span<const std:
                                float* out) {
   Slot& slot = slots_[index];
   sampled_.sampler.sample(*shader_.bind(points), slot.sampled);
+  const int channels = basis_.reflectances.size();
+  if (const std::string problem = find_problem(shader_, points, slot.sampled); !problem.empty()) {
+    if (slot.problem.empty()) slot.problem = problem;
+    std::fill_n(out, points.size() * channels, 0.0f);
+    return;
+  }
   sampled_.keys.compute(slot.sampled, slot.keys, slot.sums);
   slot.fits.clear();
-  const int channels = basis_.reflectances.size();
   Fit current;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i == 0 || slot.keys[i] != slot.keys[i - 1]) current = fit(slot, i, points);
@@ -154,6 +167,7 @@ void PointProjection::evaluate(const SurfacePoints& points, std::span<const std:
 
 void PointProjection::tile_done(std::size_t index) {
   Slot& slot = slots_[index];
+  if (!slot.problem.empty()) monitor_.fail(slot.problem);
   residual_ = std::max(residual_, slot.residual);
   outlier_residual_ = std::max(outlier_residual_, slot.outlier_residual);
   if (!slot.outlier_scaled.empty()) outliers_.insert(slot.outlier_key, slot.outlier_scaled.data(), slot.outlier_place);
@@ -200,7 +214,7 @@ void project_points(const TexelGrid& grid, const Shader& shader, const BakeOptio
                     BakeMonitor& monitor, BaseLevel& base) {
   for (;;) {
     const KnownWeights known(sampled.unique, basis.reflectances);
-    PointProjection projection(shader, sampled, known, basis, options);
+    PointProjection projection(shader, sampled, known, basis, options, monitor);
     average_texels(
         grid, wanted, sub_samples,
         [&](const SurfacePoints& points, std::span<const std::size_t> texel, std::size_t slot, float* out) {

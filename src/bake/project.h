@@ -22,7 +22,8 @@ struct ChosenBasis {
 ChosenBasis choose(const SampledTexels& sampled, const BakeOptions& options);
 
 /// Weights of every texel, one channel a basis reflectance. Sub-samples that the basis does not represent extend it
-/// while it may grow; `basis.residual` becomes the largest over all points. Frees `sampled.id`. Throws BakeInterrupted.
+/// while it may grow; `basis.residual` becomes the largest over all points. Frees `sampled.id`. Throws BakeInterrupted,
+/// and Error on reflectances that are no numbers.
 BaseLevel project(const TexelGrid& grid, const Shader& shader, const BakeOptions& options, SampledTexels& sampled,
                   ChosenBasis& basis, BakeMonitor& monitor, BakeReport& report);
 

@@ -24,6 +24,7 @@ struct Scratch {
   SampledReflectances sampled;
   std::vector<std::uint64_t> batch_keys;
   LaneVector<float> sums;
+  std::string problem;  ///< empty: none
   // Distinct reflectances of the tile, in order of appearance.
   std::unordered_set<std::uint64_t> known;
   std::vector<std::uint64_t> keys;
@@ -57,6 +58,8 @@ void sample_tile(const TexelGrid& grid, const Shader& shader, TexelRegion region
     const std::size_t end = std::min(scratch.found.points.size(), begin + kBatch);
     copy_points(scratch.found.points, begin, end, scratch.batch);
     result.sampler.sample(*shader.bind(scratch.batch), scratch.sampled);
+    scratch.problem = find_problem(shader, scratch.batch, scratch.sampled);
+    if (!scratch.problem.empty()) return;
     result.keys.compute(scratch.sampled, scratch.batch_keys, scratch.sums);
     collect_distinct(result.row_scales, scratch);
     for (std::size_t i = begin; i < end; ++i) {
@@ -80,6 +83,16 @@ std::vector<std::size_t> handed_on(const BakeOptions& options, const Scratch& sc
 
 static_assert(kTile == kPaperBlock, "tiles are the paper's blocks");
 
+std::string find_problem(const Shader& shader, const SurfacePoints& points, const SampledReflectances& sampled) {
+  const std::optional<std::size_t> place = find_unsound_place(sampled);
+  if (!place) return {};
+  const Vec3 p = points.position.get(*place);
+  return fmt::format(
+      "bake: shader \"{}\": expected radiance, transmittance and emission to be numbers below {:.0e}, found another at "
+      "position ({:g}, {:g}, {:g}) in object space",
+      shader.info().name, kUnsoundValue, p.x, p.y, p.z);
+}
+
 std::vector<float> estimate_row_scales(const TexelGrid& grid, const Shader& shader, const ReflectanceSampler& sampler,
                                        BakeMonitor& monitor) {
   // Some random texels of each tile, so that every part of the surface has its say.
@@ -98,12 +111,14 @@ std::vector<float> estimate_row_scales(const TexelGrid& grid, const Shader& shad
     if (scratch.found.points.size() == 0 || monitor.stopped()) return;
     copy_points(scratch.found.points, 0, scratch.found.points.size(), scratch.batch);
     sampler.sample(*shader.bind(scratch.batch), scratch.sampled);
+    scratch.problem = find_problem(shader, scratch.batch, scratch.sampled);
   };
   parallel_pipeline(grid.tiles(), produce, [&](std::size_t index, std::size_t slot) {
+    if (!slots[slot].problem.empty()) monitor.fail(slots[slot].problem);
     if (slots[slot].sampled.places > 0) scaling.add(slots[slot].sampled);
     monitor.advance(static_cast<float>(index + 1) / static_cast<float>(grid.tiles()));
   });
-  if (monitor.stopped()) throw BakeInterrupted();
+  monitor.throw_if_stopped();
   if (scaling.places() == 0)
     throw Error("bake: no texel of {}x{} lies on the surface: expected uv that cover some of the unit square",
                 grid.extent().width, grid.extent().height);
@@ -130,10 +145,11 @@ SampledTexels sample_texels(const TexelGrid& grid, const Shader& shader, const B
   };
   parallel_pipeline(grid.tiles(), produce, [&](std::size_t index, std::size_t slot) {
     const Scratch& s = slots[slot];
+    if (!s.problem.empty()) monitor.fail(s.problem);
     for (std::size_t i : chosen[slot]) result.unique.insert(s.keys[i], &s.scaled[i * sampler.rows()], s.places[i]);
     monitor.advance(static_cast<float>(index + 1) / static_cast<float>(grid.tiles()));
   });
-  if (monitor.stopped()) throw BakeInterrupted();
+  monitor.throw_if_stopped();
   result.unique.finish();
   return result;
 }

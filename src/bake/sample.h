@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "analysis/sampling.h"
@@ -26,11 +27,16 @@ struct SampledTexels {
 /// What of a key is remembered a texel. Never zero.
 inline std::uint32_t texel_id(std::uint64_t key) { return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(key)); }
 
-/// Scales that bring every row to unit RMS, from some thousand random texels. Throws Error if none is covered.
+/// What is wrong with the reflectances that `shader` has at `points`, naming the shader and the first place; empty if
+/// nothing is.
+std::string find_problem(const Shader& shader, const SurfacePoints& points, const SampledReflectances& sampled);
+
+/// Scales that bring every row to unit RMS, from some thousand random texels. Throws Error if none is covered
+/// and on reflectances that are no numbers.
 std::vector<float> estimate_row_scales(const TexelGrid& grid, const Shader& shader, const ReflectanceSampler& sampler,
                                        BakeMonitor& monitor);
 
-/// Samples the centre of every texel. Throws BakeInterrupted.
+/// Samples the centre of every texel. Throws BakeInterrupted, and Error on reflectances that are no numbers.
 SampledTexels sample_texels(const TexelGrid& grid, const Shader& shader, const BakeOptions& options,
                             BakeMonitor& monitor);
 

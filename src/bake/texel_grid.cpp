@@ -64,6 +64,16 @@ void BakeMonitor::advance(float part_of_stage) {
   if (callback_ && !stopped_) stopped_ = !callback_(begin_ + (end_ - begin_) * part_of_stage, name_);
 }
 
+void BakeMonitor::fail(const std::string& problem) {
+  if (!stopped_) problem_ = problem;
+  stopped_ = true;
+}
+
+void BakeMonitor::throw_if_stopped() const {
+  if (!problem_.empty()) throw Error(problem_);
+  if (stopped_) throw BakeInterrupted();
+}
+
 TexelGrid::TexelGrid(const Surface& surface, int size)
     : surface_(surface),
       extent_(surface.map_extent(size)),
@@ -143,7 +153,7 @@ void average_texels(const TexelGrid& grid, std::span<const std::uint8_t> wanted,
     if (done) done(slot);
     monitor.advance(static_cast<float>(index + 1) / static_cast<float>(grid.tiles()));
   });
-  if (monitor.stopped()) throw BakeInterrupted();
+  monitor.throw_if_stopped();
 }
 
 }  // namespace redmap

@@ -2,6 +2,7 @@
 // the number of threads (paper, section 4.1).
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -22,13 +23,17 @@ class BakeMonitor {
   /// What follows is `name` and takes the bake from where it is to `end`, 0 to 1.
   void begin(std::string_view name, float end);
   void advance(float part_of_stage);
+  /// Stops the bake because of `problem`, one line; the first counts. From one thread at a time, as advance().
+  void fail(const std::string& problem);
   bool stopped() const { return stopped_; }
+  /// Throws BakeInterrupted, or Error with the problem.
+  void throw_if_stopped() const;
 
  private:
   BakeProgress callback_;
-  std::string name_;
+  std::string name_, problem_;
   float begin_ = 0, end_ = 0;
-  bool stopped_ = false;
+  std::atomic<bool> stopped_{false};  ///< set by the sink of a pipeline, read by its producers
 };
 
 /// Texels across a tile: the blocks of the paper, and small enough that 4 x 4 points a texel stay in the cache.
@@ -69,7 +74,8 @@ using EvaluatePoints =
 using TileDone = std::function<void(std::size_t slot)>;
 
 /// Replaces the `wanted` texels of `base` by the average of `sub_samples`^2 points each, and their coverage by the part
-/// of these that lie on the surface. Throws BakeInterrupted.
+/// of these that lie on the surface. Throws BakeInterrupted, or Error if `done`
+/// has failed the monitor.
 void average_texels(const TexelGrid& grid, std::span<const std::uint8_t> wanted, int sub_samples,
                     const EvaluatePoints& evaluate, const TileDone& done, BakeMonitor& monitor, BaseLevel& base);
 

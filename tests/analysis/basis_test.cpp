@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -144,6 +145,16 @@ TEST(ChooseBasis, BlackSurface_HasABasisOfOne) {
   const BasisChoice choice = choose_basis(vectors.view(), kTolerance, 8);
   EXPECT_EQ(choice.chosen.size(), 1u);
   EXPECT_EQ(choice.residual, 0);
+}
+
+TEST(ReflectanceBasis, WhatIsNoNumber_IsInfinitelyFar) {
+  Random random(13);
+  std::vector<float> v = random_vector(random);
+  ReflectanceBasis basis(kRows);
+  basis.add(v.data());
+  BasisWeights weights;
+  v[77] = std::nanf("");
+  EXPECT_EQ(basis.fit(v.data(), weights), std::numeric_limits<float>::infinity());
 }
 
 TEST(ReflectanceBasis, Fit_RecoversPlantedWeights_AndTheirDistance) {

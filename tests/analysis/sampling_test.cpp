@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -79,6 +80,19 @@ TEST(Sampling, Rows_AreReflections_ThenTransmittance_ThenEmission) {
   EXPECT_EQ(all.rows, 108);
   EXPECT_FLOAT_EQ(all.row(102)[0], 0.1f);
   EXPECT_FLOAT_EQ(all.row(107)[1], 0.003f);
+}
+
+TEST(Sampling, FirstUnsoundPlace_IsFoundInAnyRow) {
+  SampledReflectances sampled = sample(std::vector<Rgb>(13, Rgb{1, 0.5f, 0.25f}), true, true);
+  // Padding may hold anything.
+  for (int r = 0; r < sampled.rows; ++r) sampled.row(r)[13] = std::nanf("");
+  EXPECT_FALSE(find_unsound_place(sampled));
+  sampled.row(3)[12] = -std::numeric_limits<float>::infinity();
+  EXPECT_EQ(find_unsound_place(sampled), 12u);
+  sampled.row(107)[8] = std::nanf("");
+  EXPECT_EQ(find_unsound_place(sampled), 8u);
+  sampled.row(0)[2] = 2e18f, sampled.row(0)[1] = -1e18f;
+  EXPECT_EQ(find_unsound_place(sampled), 2u);
 }
 
 TEST(RowScaling, BringsRowsToUnitRms_AndGivesZeroRowsTheBrightestOnesScale) {
