@@ -55,6 +55,7 @@ ReductionMap describe(const Surface& surface, const Shader& shader, const BakeOp
                       const ChosenBasis& basis) {
   ReductionMap map;
   map.shader = shader.info().name;
+  map.shader_hash = shader.info().text_hash;
   for (std::size_t i = 0; i < shader.info().parameters.size(); ++i)
     map.parameters[shader.info().parameters[i].name] = shader.parameters()[i];
   map.surface_fingerprint = surface.fingerprint();

@@ -81,10 +81,12 @@ std::vector<BasisPlace> parse_basis(const Reader& reader, const std::string& whe
   return basis;
 }
 
-std::uint64_t parse_fingerprint(const Reader& reader) {
-  const std::string text = reader.text("surface");
+std::string hexadecimal(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+std::uint64_t parse_hash(const Reader& reader, const char* key) {
+  const std::string text = reader.text(key);
   if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
-    reader.refuse("surface", "16 hexadecimal digits");
+    reader.refuse(key, "16 hexadecimal digits");
   return std::stoull(text, nullptr, 16);
 }
 
@@ -120,8 +122,9 @@ std::string describe_map(const ReductionMap& map) {
   for (const auto& [name, value] : map.parameters) parameters[name] = value;
   const Json description{{"format_version", kMapFormatVersion},
                          {"shader", map.shader},
+                         {"shader_hash", hexadecimal(map.shader_hash)},
                          {"parameters", parameters},
-                         {"surface", fmt::format("{:016x}", map.surface_fingerprint)},
+                         {"surface", hexadecimal(map.surface_fingerprint)},
                          {"size", map.size},
                          {"tolerance", map.tolerance},
                          {"residual", map.residual},
@@ -145,10 +148,11 @@ MapDescription parse_map_description(std::string_view json, const std::string& w
   MapDescription description;
   ReductionMap& map = description.map;
   map.shader = reader.text("shader");
+  map.shader_hash = parse_hash(reader, "shader_hash");
   const Json& parameters = reader.get("parameters", "an object");
   const Reader values(parameters, where + ": parameters");
   for (const auto& [name, value] : parameters.items()) map.parameters[name] = values.numbers(name.c_str(), 1, 3);
-  map.surface_fingerprint = parse_fingerprint(reader);
+  map.surface_fingerprint = parse_hash(reader, "surface");
   map.size = static_cast<int>(reader.number("size", 1, 16384));
   map.tolerance = static_cast<float>(reader.number("tolerance", 0, kAnything));
   map.residual = static_cast<float>(reader.number("residual", 0, kAnything));

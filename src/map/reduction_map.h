@@ -31,6 +31,7 @@ enum class MapVerdict {
 
 struct ReductionMap {
   std::string shader;
+  std::uint64_t shader_hash = 0;  ///< ShaderInfo::text_hash: the version of the shader that was baked
   std::map<std::string, std::vector<float>> parameters;  ///< all of them, by name
   std::uint64_t surface_fingerprint = 0;
   int size = 0;         ///< asked for; the extent of level 0 is weights.extent(0)

@@ -43,7 +43,7 @@ void add_object(Hasher& hasher, const Object& object, float time_seconds) {
   hasher.add(object.transform.translate), hasher.add(object.transform.rotate_degrees);
   hasher.add(object.transform.scale);
   const ShaderInfo& info = object.shader->info();
-  hasher.add(std::string_view(info.name));
+  hasher.add(std::string_view(info.name)), hasher.add(info.text_hash);
   for (const std::vector<float>& values : object.shader->parameters()) {
     hasher.add(static_cast<std::uint64_t>(values.size()));
     for (float value : values) hasher.add(value);

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/nearest.h"
 #include "shader/library_entry.h"
 #include "shader/parameter_values.h"
@@ -27,8 +28,12 @@ std::string read_include(std::string_view name) {
 
 std::map<std::string, ShaderInfo, std::less<>> read_infos() {
   std::map<std::string, ShaderInfo, std::less<>> infos;
-  for (const library::LibraryEntry& entry : library::entries())
-    infos.emplace(entry.name, parse_shader_text(entry.text, std::string(entry.name) + ".glsl"));
+  for (const library::LibraryEntry& entry : library::entries()) {
+    ShaderInfo info = parse_shader_text(entry.text, std::string(entry.name) + ".glsl");
+    const std::string text = library_shader_text(entry.name);
+    info.text_hash = hash_bytes(0, text.data(), text.size());
+    infos.emplace(entry.name, std::move(info));
+  }
   return infos;
 }
 

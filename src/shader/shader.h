@@ -5,6 +5,7 @@
 // cosine included: a white Lambert surface has cos / pi. Always batches, never a virtual call per pair.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,6 +61,7 @@ class BoundPatterns {
 struct ShaderInfo {
   std::string name;
   std::string summary;  ///< the first comment line of the text
+  std::uint64_t text_hash = 0;  ///< of the library's complete text, includes too: tells versions of a shader apart
   std::vector<ParameterInfo> parameters;
   bool black_box = false;       ///< radiance(Surface, ...) instead of the split form
   bool transmits = false;       ///< declares transmittance()

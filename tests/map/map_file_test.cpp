@@ -26,6 +26,7 @@ ReductionMap random_map(Extent extent, int basis) {
   ReductionMap map;
   map.shader = "noise \"quoted\"";
   map.parameters = {{"scale", {14.1f}}, {"paint", {0.1f, 0.2f, 1e-9f}}};
+  map.shader_hash = 0x0123456789ABCDEFull;
   map.surface_fingerprint = 0xFEDCBA9876543210ull;
   map.size = extent.height;
   map.tolerance = 0.025f, map.residual = 0.0123f;
@@ -138,8 +139,8 @@ TEST(MapFile, ForeignFiles_AreNamedForWhatTheyAre) {
   expect_refused(path, "OpenEXR cannot read");
 
   write_map(path, random_map({16, 16}, 1));
-  patch(path, "\"format_version\":1,", "\"format_version\":7,");
-  expect_refused(path, "format_version: expected 1, found 7");
+  patch(path, "\"format_version\":2,", "\"format_version\":7,");
+  expect_refused(path, "format_version: expected 2, found 7");
 }
 
 TEST(MapFile, HostileDescriptions_AreRefusedByKey) {
@@ -155,6 +156,8 @@ TEST(MapFile, HostileDescriptions_AreRefusedByKey) {
   expect_refused(path, "expected JSON");
   patched("\"shader\":\"", "\"shadow\":\"");
   expect_refused(path, "shader: expected a text, found nothing");
+  patched("0123456789abcdef", "0123456789abcdeg");
+  expect_refused(path, "shader_hash: expected 16 hexadecimal digits");
   patched("one-material", "nine-materia");
   expect_refused(path, "verdict: expected reduces");
   patched("\"wraps_u\":true", "\"wraps_u\":1234");
