@@ -118,7 +118,7 @@ void judge(const TexelGrid& grid, const Shader& shader, const SampledTexels& sam
     map.verdict = MapVerdict::kDoesNotReduce;
     map.verdict_reason = fmt::format("{} basis reflectances leave a residual of {:.3f}, over the tolerance of {:.3f}",
                                      map.basis.size(), map.residual, map.tolerance);
-  } else if (shader.info().has_material) {
+  } else if (shader.info().has_material && !shader.info().emits) {  // averaged parameters hold no emission
     const double difference = one_material_difference(grid, shader, sampled);
     if (difference >= kOneMaterialDifference) return;
     map.verdict = MapVerdict::kOneMaterial;
