@@ -1,8 +1,20 @@
 #include "scene/animation.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace redmap {
+
+namespace {
+
+/// Whole turns are taken off in double: what is left is as exact at the last frame as at the second.
+void turn(Scene& moment, const Turntable& turntable, int frame) {
+  float& angle_degrees = moment.objects[turntable.object].transform.rotate_degrees.y;
+  const double turned_degrees = std::fmod(static_cast<double>(turntable.degrees_per_frame) * (frame - 1), 360.0);
+  angle_degrees = static_cast<float>(angle_degrees + turned_degrees);
+}
+
+}  // namespace
 
 Vec3 interpolate(const std::vector<AnimationKey>& keys, int frame) {
   const auto after =
@@ -17,9 +29,7 @@ Vec3 interpolate(const std::vector<AnimationKey>& keys, int frame) {
 Scene animate(const Scene& scene, const Animation& animation, int frame) {
   Scene moment = scene;
   for (const AnimationTrack& track : animation.tracks) track.apply(moment, interpolate(track.keys, frame));
-  if (animation.turntable)
-    moment.objects[animation.turntable->object].transform.rotate_degrees.y +=
-        animation.turntable->degrees_per_frame * static_cast<float>(frame - 1);
+  if (animation.turntable) turn(moment, *animation.turntable, frame);
   moment.time_seconds = static_cast<float>(frame - 1) / animation.frames_per_second;
   for (Light& light : moment.lights) light.to_light = normalized(light.to_light);
   // Tiles of a mesh stand where the first of them does.

@@ -4,12 +4,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/frame_spec.h"
 
 namespace redmap {
 
 namespace {
-
-constexpr int kMaxFrames = 100'000;  // every frame is checked when a scene is loaded
 
 /// What a key may move: how its value is read, and where it goes.
 struct Channel {

@@ -9,8 +9,6 @@ namespace redmap {
 
 namespace {
 
-constexpr int kMaxFrames = 1'000'000;  // over nine hours at 30 frames a second: more is a slip of the finger
-
 int parse_frame(std::string_view text, std::string_view spec) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace redmap {
 namespace {
 
@@ -39,6 +41,20 @@ TEST(Animate, TurntableAddsToTheRotation_AndTimeStartsAtFrameOne) {
   EXPECT_EQ(later.objects[0].transform.rotate_degrees, Vec3{});
   EXPECT_FLOAT_EQ(later.time_seconds, 2);
   EXPECT_EQ(animate(rest, animation, 1).time_seconds, 0);
+}
+
+TEST(Animate, AWholeTurn_EndsWhereItBegan_HoweverManyFrames) {
+  Scene rest;
+  rest.objects.resize(1);
+  rest.objects[0].transform.rotate_degrees.y = 10;
+  Animation animation;
+  animation.turntable = Turntable{0, 22.5f};
+  EXPECT_EQ(animate(rest, animation, 17).objects[0].transform.rotate_degrees.y, 10);
+  // 22.5 degrees a frame and a little: after 100 000 frames a float would be off by a tenth of a degree.
+  animation.turntable->degrees_per_frame = 22.5f + 0x1p-12f;
+  const double turned = std::fmod((22.5 + 0x1p-12) * 99'999, 360.0);
+  EXPECT_FLOAT_EQ(animate(rest, animation, 100'000).objects[0].transform.rotate_degrees.y,
+                  static_cast<float>(10 + turned));
 }
 
 TEST(Animate, DirectionsToLights_AreUnitVectors) {
