@@ -11,6 +11,7 @@
 #include "common.h"
 #include "map/map_file.h"
 #include "map_json.h"
+#include "scene/basis.h"
 #include "shader/shader.h"
 
 namespace redmap::cli {
@@ -22,6 +23,8 @@ constexpr int kSpherePixels = 256;
 /// The sphere's light: from above left, as in most such pictures, and bright enough for white to be white.
 constexpr Vec3 kToLight{-0.45f, 0.55f, 0.70f};
 constexpr float kIrradiance = kPi;
+/// Most texels across a picture: finer levels of a large map would be gigabytes of floats that no viewer shows.
+constexpr int kMaxPictureTexels = 4096;
 /// What basis reflectances are painted with in the picture of all weights: ten colours that can be told apart
 /// (Tableau 10, in linear light), then again.
 constexpr Rgb kColours[] = {{0.08f, 0.20f, 0.40f}, {0.89f, 0.26f, 0.03f}, {0.09f, 0.37f, 0.08f}, {0.76f, 0.09f, 0.09f},
@@ -43,15 +46,22 @@ Image level_picture(const WeightPyramid& weights, int level, int channels, const
   return picture;
 }
 
-Image coverage_picture(const WeightPyramid& weights) {
-  return level_picture(weights, 0, 1, [&](int x, int y, Image& picture, int column, int row) {
-    picture.at(column, row, 0) = weights.coverage(0, x, y);
+/// The finest level that is shown.
+int first_level(const WeightPyramid& weights) {
+  int level = 0;
+  while (std::max(weights.extent(level).width, weights.extent(level).height) > kMaxPictureTexels) ++level;
+  return level;
+}
+
+Image coverage_picture(const WeightPyramid& weights, int level) {
+  return level_picture(weights, level, 1, [&](int x, int y, Image& picture, int column, int row) {
+    picture.at(column, row, 0) = weights.coverage(level, x, y);
   });
 }
 
-Image weight_picture(const WeightPyramid& weights, int basis) {
-  return level_picture(weights, 0, 1, [&](int x, int y, Image& picture, int column, int row) {
-    picture.at(column, row, 0) = weights.coverage(0, x, y) * weights.value(0, x, y, basis);
+Image weight_picture(const WeightPyramid& weights, int level, int basis) {
+  return level_picture(weights, level, 1, [&](int x, int y, Image& picture, int column, int row) {
+    picture.at(column, row, 0) = weights.coverage(level, x, y) * weights.value(level, x, y, basis);
   });
 }
 
@@ -63,20 +73,6 @@ Image mixture_picture(const WeightPyramid& weights, int level) {
       colour += kColours[b % std::size(kColours)] * weights.value(level, x, y, b);
     picture.set_rgb(column, row, colour * weights.coverage(level, x, y));
   });
-}
-
-/// The patterns at the basis places.
-std::unique_ptr<BoundPatterns> bind_basis(const ReductionMap& map) {
-  SurfacePoints points;
-  points.resize(map.basis.size());
-  for (std::size_t i = 0; i < points.position.stride(); ++i) {
-    const BasisPlace& place = map.basis[std::min(i, map.basis.size() - 1)];
-    points.position.set(i, place.position);
-    points.normal.set(i, place.normal);
-    points.tangent.set(i, place.tangent);
-    points.uv.set(i, place.uv);
-  }
-  return make_library_shader(map.shader, map.parameters)->bind(points);
 }
 
 /// A basis reflectance on a lit sphere, seen from far away.
@@ -100,12 +96,13 @@ Image sphere_picture(const BoundPatterns& patterns, std::size_t basis) {
     pairs.to_light.set(i, frame.to_local(to_light));
     pairs.to_viewer.set(i, frame.to_local(to_viewer));
   }
-  Planes<3> radiance;
+  Planes<3> radiance, emission;
   patterns.radiance_one(basis, pairs, radiance);
+  patterns.emission(emission);
   Image picture(kSpherePixels, kSpherePixels, 3);
   for (std::size_t i = 0; i < pixels.size(); ++i)
     picture.set_rgb(static_cast<int>(pixels[i] % kSpherePixels), static_cast<int>(pixels[i] / kSpherePixels),
-                    radiance.rgb(i) * kIrradiance);
+                    radiance.rgb(i) * kIrradiance + emission.rgb(basis));
   return picture;
 }
 
@@ -116,13 +113,14 @@ void write_pictures(const ReductionMap& map, const std::filesystem::path& folder
     write_image(picture, folder / name);
     fmt::print("{}\n", (folder / name).string());
   };
-  write(coverage_picture(map.weights), "coverage.png");
-  const std::unique_ptr<BoundPatterns> patterns = bind_basis(map);
+  const int first = first_level(map.weights);
+  write(coverage_picture(map.weights, first), "coverage.png");
+  const std::unique_ptr<BoundPatterns> patterns = bind_basis(*make_library_shader(map.shader, map.parameters), map);
   for (std::size_t b = 0; b < map.basis.size(); ++b) {
     write(sphere_picture(*patterns, b), fmt::format("basis{:02}.png", b));
-    write(weight_picture(map.weights, static_cast<int>(b)), fmt::format("weight{:02}.png", b));
+    write(weight_picture(map.weights, first, static_cast<int>(b)), fmt::format("weight{:02}.png", b));
   }
-  for (int level = 0; level < map.weights.levels(); ++level)
+  for (int level = first; level < map.weights.levels(); ++level)
     write(mixture_picture(map.weights, level), fmt::format("level{:02}.png", level));
 }
 
@@ -154,7 +152,8 @@ void add_inspect_command(CLI::App& app) {
       "  redmap inspect maps/bunny.exr --pictures out    coverage, basis, weights and levels as PNG");
   auto options = std::make_shared<Options>();
   sub->add_option("map", options->map, "the map's file")->required();
-  sub->add_option("--pictures", options->pictures, "folder for pictures of the coverage, each basis, weight and level");
+  sub->add_option("--pictures", options->pictures,
+                  "folder for pictures of the coverage, each basis, weight and level, from 4096 texels down");
   add_common_options(*sub, options->common);
   sub->callback([options] { inspect(*options); });
 }
