@@ -91,7 +91,8 @@ void print_remarks(const SceneFile& file, const CommonOptions& options) {
 
 void write_json(const std::filesystem::path& path, const nlohmann::json& value) {
   if (path.empty()) return;
-  write_file(path, value.dump(2) + "\n");
+  // Names in old files may be in no encoding that JSON knows: their strange bytes become the replacement character.
+  write_file(path, value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace redmap::cli

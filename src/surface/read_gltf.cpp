@@ -294,7 +294,7 @@ TriangleMesh read_gltf(const std::filesystem::path& path, bool binary, int uv_se
   const tinygltf::Model model = load_gltf(path, binary);
   for (const std::string& extension : model.extensionsRequired)
     if (std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), extension) == std::end(kKnownExtensions) &&
-        !extension.starts_with("KHR_materials_"))
+        !extension.starts_with("KHR_materials_") && !extension.starts_with("KHR_technique"))
       throw Error("{}: expected glTF 2.0 with extensions that redmap knows, found that it requires {}", path.string(),
                   extension);
   return GltfMesh(path, model, uv_set).read();

@@ -43,6 +43,11 @@ accepts "[0.1, 1000]" list parameters noise
 accepts "noise" list noise --json "$folder/noise.json"
 python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["name"] == "noise"' "$folder/noise.json" || failures=$((failures + 1))
 
+# Names in old files may be in no encoding that JSON knows.
+printf 'g K\xf6rper\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$folder/latin.obj"
+accepts "L2 stretch" unwrap "$folder/latin.obj" -o "$folder/latin.ply" --json "$folder/latin.json" --resolution 64
+python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["atlas"]["charts"] == 1' "$folder/latin.json" || failures=$((failures + 1))
+
 refuses "subcommand"
 refuses "nonsense" nonsense
 refuses "see redmap list --help" list --nonsense
