@@ -35,8 +35,13 @@ nlohmann::json to_json(const ParameterInfo& parameter) {
 nlohmann::json to_json(const ShaderInfo& shader) {
   nlohmann::json parameters = nlohmann::json::array();
   for (const ParameterInfo& parameter : shader.parameters) parameters.push_back(to_json(parameter));
-  return {{"name", shader.name},           {"summary", shader.summary}, {"black_box", shader.black_box},
-          {"transmits", shader.transmits}, {"emits", shader.emits},     {"varies_in_time", shader.varies_in_time},
+  return {{"name", shader.name},
+          {"summary", shader.summary},
+          {"black_box", shader.black_box},
+          {"transmits", shader.transmits},
+          {"emits", shader.emits},
+          {"varies_in_time", shader.varies_in_time},
+          {"perturbs_normals", shader.perturbs_normals},
           {"parameters", parameters}};
 }
 

@@ -72,6 +72,9 @@ std::unique_ptr<ObjectShading> make_parameters_shading(std::shared_ptr<const Sha
                                                        std::shared_ptr<const Pyramid<float>> parameters) {
   if (!shader->info().has_material)
     throw Error("shader '{}' does not declare material(): --method parameters needs it", shader->info().name);
+  if (shader->info().perturbs_normals)
+    throw Error("shader '{}' declares shading_normal(): --method parameters does not filter normals",
+                shader->info().name);
   if (shader->info().emits)
     throw Error("shader '{}' emits light: --method parameters has no parameter for it", shader->info().name);
   return std::make_unique<ParametersShading>(std::move(shader), std::move(parameters));

@@ -49,6 +49,13 @@ SurfacePoints surface_points(std::span<const SurfaceHit> hits, std::span<const s
   return points;
 }
 
+/// Shading frames of shaders that perturb normals: the hits' frames with another z.
+std::vector<Frame> perturbed_frames(const ShadingBatch& batch, const Planes<3>& normals) {
+  std::vector<Frame> frames(batch.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = make_frame(normals.get(i), batch.frames[i].x);
+  return frames;
+}
+
 class ShaderShading : public ObjectShading {
  public:
   explicit ShaderShading(std::shared_ptr<const Shader> shader) : shader_(std::move(shader)) {}
@@ -59,9 +66,12 @@ class ShaderShading : public ObjectShading {
       patterns->emission(out.radiance);
     else
       out.radiance = Planes<3>(batch.size());
+    std::vector<Frame> perturbed;
+    std::span<const Frame> frames = batch.frames;
+    if (Planes<3> normals; patterns->shading_normals(normals)) frames = perturbed = perturbed_frames(batch, normals);
     Planes<3> radiance;
     for (std::size_t light = 0; light < batch.lights.size(); ++light) {
-      patterns->radiance_each(pairs_in_frames(batch, light, batch.frames), radiance);
+      patterns->radiance_each(pairs_in_frames(batch, light, frames), radiance);
       add_lit(nullptr, radiance, batch.lights[light].irradiance, out.radiance);
     }
     counts.shader_calls += batch.size() * batch.lights.size();

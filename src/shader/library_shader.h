@@ -67,15 +67,39 @@ struct SplitForm {
   }
 };
 
+/// Whether a text declares shading_normal().
+template <typename Surface, typename Parameters>
+inline constexpr bool kPerturbsNormals = requires(const Surface& at, const Parameters& p) {
+  shading_normal(at, p);
+};
+
 /// A black box: what is bound is the place, and directions are rotated from its shading frame to object space.
 template <typename Surface, typename Vector, typename Parameters>
 struct BlackBoxForm {
-  using Bound = Surface;
-  static Bound bind(const Surface& at, const Parameters&) { return at; }
-  static Vector evaluate(const Bound& at, const Parameters& p, Vector to_light, Vector to_viewer) {
-    const Vector bitangent = cross(at.normal, at.tangent);
-    const auto to_object = [&](Vector v) { return at.tangent * v.x + bitangent * v.y + at.normal * v.z; };
-    return radiance(at, p, to_object(to_light), to_object(to_viewer));
+  struct PerturbedPlace {
+    Surface at;
+    Vector normal, tangent;  ///< of the shading frame
+  };
+  static constexpr bool kPerturbed = kPerturbsNormals<Surface, Parameters>;
+  using Bound = std::conditional_t<kPerturbed, PerturbedPlace, Surface>;
+
+  static Bound bind(const Surface& at, [[maybe_unused]] const Parameters& p) {
+    if constexpr (kPerturbed) {
+      const Vector normal = shading_normal(at, p);
+      const Vector along = at.tangent - normal * dot(normal, at.tangent);
+      // The little of the other normal counts only where the tangent is the shading normal.
+      return {at, normal, normalize(along + at.normal * 1e-6f)};
+    } else {
+      return at;
+    }
+  }
+  static Vector evaluate(const Bound& bound, const Parameters& p, Vector to_light, Vector to_viewer) {
+    const Vector bitangent = cross(bound.normal, bound.tangent);
+    const auto to_object = [&](Vector v) { return bound.tangent * v.x + bitangent * v.y + bound.normal * v.z; };
+    if constexpr (kPerturbed)
+      return radiance(bound.at, p, to_object(to_light), to_object(to_viewer));
+    else
+      return radiance(bound, p, to_object(to_light), to_object(to_viewer));
   }
 };
 
@@ -151,6 +175,11 @@ class LibraryPatterns final : public BoundPatterns {
   LibraryPatterns(std::size_t size, const Parameters& parameters)
       : size_(size), parameters_(parameters), blocks_(padded(size) / kLanes) {}
   Bound& block(std::size_t i) { return blocks_[i]; }
+  /// Of eight patterns from `i` on, which must be done for all or for none.
+  void set_shading_normals(std::size_t i, Vector normal) {
+    normals_.resize(size_);
+    Lanes::store(normals_, i, normal);
+  }
   std::size_t size() const override { return size_; }
 
   void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
@@ -192,6 +221,11 @@ class LibraryPatterns final : public BoundPatterns {
   }
 
   bool materials(Materials& out) const override { return store_materials<Vector>(blocks_, size_, out); }
+  bool shading_normals(Planes<3>& out) const override {
+    if (normals_.size() == 0) return false;
+    out = normals_;
+    return true;
+  }
 
  private:
   /// Radiance of `count` blocks in a row (step 1) or of one block again and again (step 0). The one place where
@@ -216,6 +250,7 @@ class LibraryPatterns final : public BoundPatterns {
   std::size_t size_;
   Parameters parameters_;
   LaneVector<Bound> blocks_;
+  Planes<3> normals_;  ///< of shaders that perturb them
 };
 
 template <typename Form, typename Surface, typename Vector, typename Parameters>
@@ -228,7 +263,12 @@ class LibraryShader final : public Shader {
 
   std::unique_ptr<BoundPatterns> bind(const SurfacePoints& points) const override {
     auto bound = std::make_unique<LibraryPatterns<Form, Vector, Parameters>>(points.size(), parameters_);
-    for (std::size_t i = 0; i < points.size(); i += kLanes) bound->block(i / kLanes) = bind_block(place(points, i));
+    for (std::size_t i = 0; i < points.size(); i += kLanes) {
+      const Surface at = place(points, i);
+      bound->block(i / kLanes) = bind_block(at);
+      if constexpr (kPerturbsNormals<Surface, Parameters>)
+        bound->set_shading_normals(i, shading_normal(at, parameters_));
+    }
     return bound;
   }
 

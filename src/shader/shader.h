@@ -55,19 +55,23 @@ class BoundPatterns {
   virtual void emission(Planes<3>& out) const = 0;
   /// False, and `out` untouched, if the shader does not say.
   virtual bool materials(Materials& out) const = 0;
+  /// Shading normals, object space, unit. False, and `out` untouched, if the shader does not say: then they are the
+  /// interpolated normals of the places, or whatever a black box hides (analysis/shading_normal.h).
+  virtual bool shading_normals([[maybe_unused]] Planes<3>& out) const { return false; }
 };
 
 /// What is known of a shader without running it, read from its own text.
 struct ShaderInfo {
   std::string name;
-  std::string summary;  ///< the first comment line of the text
+  std::string summary;          ///< the first comment line of the text
   std::uint64_t text_hash = 0;  ///< of the library's complete text, includes too: tells versions of a shader apart
   std::vector<ParameterInfo> parameters;
-  bool black_box = false;       ///< radiance(Surface, ...) instead of the split form
-  bool transmits = false;       ///< declares transmittance()
-  bool emits = false;           ///< declares emission()
-  bool has_material = false;    ///< declares material(), for the `parameters` baseline
-  bool varies_in_time = false;  ///< its text reads Surface.time: no map can stand in for it
+  bool black_box = false;         ///< radiance(Surface, ...) instead of the split form
+  bool transmits = false;         ///< declares transmittance()
+  bool emits = false;             ///< declares emission()
+  bool has_material = false;      ///< declares material(), for the `parameters` baseline
+  bool varies_in_time = false;    ///< its text reads Surface.time: no map can stand in for it
+  bool perturbs_normals = false;  ///< declares shading_normal(): BoundPatterns::shading_normals() answers
 };
 
 class Shader {

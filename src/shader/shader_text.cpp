@@ -213,6 +213,7 @@ ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name) 
   info.transmits = defines(tokens, "vec3", "transmittance", "Pattern");
   info.emits = defines(tokens, "vec3", "emission", "Pattern");
   info.has_material = defines(tokens, "Material", "material", "Pattern");
+  info.perturbs_normals = defines(tokens, "vec3", "shading_normal", "Surface");
   info.varies_in_time = find(tokens, {".", "time"}) < tokens.size();
   return info;
 }

@@ -136,6 +136,13 @@ TEST(Bake, WhatDoesNotReduce_SaysSo) {
   EXPECT_NE(pulsing.verdict_reason.find("time"), std::string::npos);
 }
 
+TEST(Bake, PerturbedNormals_DoNotReduce_ForMapsHoldNone) {
+  const ReductionMap hammered = bake_library("hammered_metal", 64);
+  EXPECT_EQ(hammered.basis.size(), 1u) << "sampled in the shading frame it is one metal";
+  EXPECT_EQ(hammered.verdict, MapVerdict::kDoesNotReduce);
+  EXPECT_NE(hammered.verdict_reason.find("perturbs normals"), std::string::npos);
+}
+
 TEST(Bake, OneMaterial_IsRecommendedWhereItIsEnough_AndOnlyThere) {
   EXPECT_EQ(bake_library("white", 64).verdict, MapVerdict::kOneMaterial);
   for (const char* shader : {"chrome_rubber", "two_tinted_satin", "wet_dry"})

@@ -59,7 +59,7 @@ TEST(ShaderText, ReadsParametersAndFunctions) {
 
 TEST(ShaderText, IgnoresWhatIsCommentedOut) {
   const ShaderInfo info = parse_shader_text(kText, "own.glsl");
-  EXPECT_FALSE(info.emits || info.transmits || info.varies_in_time || info.has_material);
+  EXPECT_FALSE(info.emits || info.transmits || info.varies_in_time || info.has_material || info.perturbs_normals);
 }
 
 TEST(ShaderText, FindsOptionalFunctionsAndTime) {
@@ -67,9 +67,10 @@ TEST(ShaderText, FindsOptionalFunctionsAndTime) {
 vec3 emission( Pattern m ) { return vec3(0.0); }
 vec3 transmittance(in Pattern m) { return vec3(0.0); }
 Material material(Pattern m) { return Material(vec3(0.0), vec3(0.0), 1.0, vec3(0.0)); }
+vec3 shading_normal(Surface at, Parameters p) { return at.normal; }
 float clock(Surface place) { return place.time; })",
                                             "own.glsl");
-  EXPECT_TRUE(info.emits && info.transmits && info.varies_in_time && info.has_material);
+  EXPECT_TRUE(info.emits && info.transmits && info.varies_in_time && info.has_material && info.perturbs_normals);
 }
 
 TEST(ShaderText, SurvivesWindowsLineEnds) {

@@ -1,0 +1,47 @@
+// Scratched metal: brushed around the y axis, anisotropic, with fine grooves and a few deep ones.
+#include "include/bump.glsl"
+#include "include/ggx.glsl"
+#include "include/phong.glsl"
+
+struct Parameters {
+  float grooves;        // 60 [1, 2000] 1/unit: fine grooves per object unit
+  float slope;          // 0.08 [0, 1]: root mean square slope of the fine grooves
+  float deep;           // 0.5 [0, 2]: slope of the deep ones
+  vec2 roughness;       // 0.08 0.25 [0.02, 1]: GGX roughness along the grooves and across them
+  vec3 metal;           // 0.75 0.76 0.8 [0, 1]: reflectance of the metal
+};
+
+struct Pattern {
+  vec3 metal;
+  vec2 roughness;
+  vec2 groove;  // direction of the grooves in the shading frame, as cosine and sine
+};
+
+// Both kinds of grooves run around the y axis: long features there, short ones along it.
+vec3 shading_normal(Surface at, Parameters p) {
+  vec3 stretch = vec3(2.0, p.grooves, 2.0);
+  float fine = noise_gradient(at.position * stretch).y * (p.slope / kNoiseSlope);
+  vec3 sparse = at.position * vec3(1.3, 0.2 * p.grooves, 1.3) + vec3(17.3);
+  float is_deep = smoothstep(0.35, 0.5, gradient_noise(sparse));
+  float deep = is_deep * p.deep * clamp(2.0 * noise_gradient(sparse).y, -1.0, 1.0);
+  return bumped_normal(at.normal, vec3(0.0, fine + deep, 0.0));
+}
+
+Pattern pattern(Surface at, Parameters p) {
+  vec3 normal = shading_normal(at, p);
+  vec3 tangent = at.tangent - normal * dot(normal, at.tangent);
+  vec3 along = around_y(at.position);
+  float c = dot(along, tangent);
+  float s = dot(along, cross(normal, tangent));
+  float scale = inversesqrt(max(c * c + s * s, 1e-12));
+  return Pattern(p.metal, p.roughness, vec2(c, s) * scale);
+}
+
+vec3 along_groove(Pattern m, vec3 v) {
+  return vec3(m.groove.x * v.x + m.groove.y * v.y, m.groove.x * v.y - m.groove.y * v.x, v.z);
+}
+
+vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
+  vec3 lobe = ggx_anisotropic_lobe(m.metal, m.roughness, along_groove(m, to_light), along_groove(m, to_viewer));
+  return lobe * visible_cosine(to_light, to_viewer);
+}

@@ -1,0 +1,104 @@
+// Shading by shaders that perturb normals: against the analytic answer.
+#include <gtest/gtest.h>
+
+#include "bake/bake.h"
+#include "base/error.h"
+#include "render/shading.h"
+#include "render_test_support.h"
+
+namespace redmap {
+namespace {
+
+/// White Lambert about one normal in object space, whatever the surface's is.
+class LeaningLambert : public Shader {
+ public:
+  explicit LeaningLambert(Vec3 normal) : normal_(normal) { info_.perturbs_normals = info_.has_material = true; }
+  const ShaderInfo& info() const override { return info_; }
+  const ParameterValues& parameters() const override { return parameters_; }
+  std::unique_ptr<BoundPatterns> bind(const SurfacePoints& points) const override {
+    return std::make_unique<Bound>(lambert_.bind(points), normal_);
+  }
+
+ private:
+  class Bound : public BoundPatterns {
+   public:
+    Bound(std::unique_ptr<BoundPatterns> lambert, Vec3 normal) : lambert_(std::move(lambert)), normal_(normal) {}
+    std::size_t size() const override { return lambert_->size(); }
+    void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
+      lambert_->radiance_each(pairs, out);
+    }
+    void radiance_one(std::size_t i, const DirectionPairs& pairs, Planes<3>& out) const override {
+      lambert_->radiance_one(i, pairs, out);
+    }
+    void radiance_all(const DirectionPairs&, LaneVector<float>&) const override {}
+    void transmittance(Planes<3>& out) const override { lambert_->transmittance(out); }
+    void emission(Planes<3>& out) const override { lambert_->emission(out); }
+    bool materials(Materials&) const override { return false; }
+    bool shading_normals(Planes<3>& out) const override {
+      out.resize(size());
+      for (std::size_t i = 0; i < size(); ++i) out.set(i, normal_);
+      return true;
+    }
+
+   private:
+    std::unique_ptr<BoundPatterns> lambert_;
+    Vec3 normal_;
+  };
+
+  Vec3 normal_;
+  test::LambertShader lambert_{1, 0};
+  ShaderInfo info_;
+  ParameterValues parameters_;
+};
+
+TEST(ShaderShading, TakesTheCosineToTheShadersNormal_NotToTheSurfaces) {
+  const Vec3 leaning = normalized({0.3f, -0.2f, 0.9f});
+  ShadingBatch batch;
+  batch.lights.resize(1);
+  batch.lights[0].irradiance.resize(9);
+  for (std::size_t i = 0; i < 9; ++i) {
+    SurfaceHit hit{};
+    hit.normal = hit.geometric_normal = {0, 0, 1};
+    hit.tangent = {1, 0, 0};
+    batch.hits.push_back(hit);
+    batch.turned.push_back(0);
+    batch.frames.push_back(make_frame(hit.normal, hit.tangent));
+    batch.footprints.push_back({});
+    batch.to_viewer.push_back({0, 0, 1});
+    const float angle = 0.7f * static_cast<float>(i);
+    batch.lights[0].to_light.push_back(normalized({std::cos(angle), std::sin(angle), 1}));
+    batch.lights[0].irradiance.set(i, Vec3{1, 2, 3});
+  }
+  ShadedBatch shaded;
+  RenderCounts counts;
+  make_shader_shading(std::make_shared<LeaningLambert>(leaning))->shade(batch, shaded, counts);
+  for (std::size_t i = 0; i < 9; ++i)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(shaded.radiance[c][i], static_cast<float>(c + 1) * dot(leaning, batch.lights[0].to_light[i]) / kPi,
+                  1e-6f);
+}
+
+TEST(ParametersShading, RefusesShadersThatPerturbNormals) {
+  try {
+    make_parameters_shading(std::make_shared<LeaningLambert>(Vec3{0, 0, 1}), nullptr);
+    FAIL() << "expected an error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("shading_normal()"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Renderer, MapOfAShaderThatPerturbsNormals_IsSupersampledAndCounted) {
+  const Scene scene = test::sphere_scene(make_library_shader("hammered_metal"), {0, 0, 1}, 33);
+  BakeOptions baking;
+  baking.size = 64;
+  const auto map =
+      std::make_shared<const ReductionMap>(bake(*scene.objects[0].surface, *scene.objects[0].shader, baking));
+  RenderOptions options;
+  options.method = Method::kMap;
+  const RenderedFrame frame = Renderer(scene, options, {{map, nullptr, nullptr}}).render(scene, 1);
+  EXPECT_GT(frame.counts.supersampled_pixels, 200u);
+  EXPECT_EQ(frame.counts.lookups, 0u);
+}
+
+}  // namespace
+}  // namespace redmap
