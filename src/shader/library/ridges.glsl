@@ -17,7 +17,7 @@ struct Pattern {
 Pattern pattern(Surface at, Parameters p) { return Pattern(p.paint, p.exponent); }
 
 vec3 shading_normal(Surface at, Parameters p) {
-  // A cosine cut off at a quarter of its height: three quarters of a ridge are straight flanks, nearly.
+  // A cosine cut off at a quarter of its height: five sixths of a ridge are straight flanks.
   float flank = clamp(4.0 * cos(2.0 * pi * at.position.y * p.rows), -1.0, 1.0);
   vec3 fine = 0.05 * unit_bumps(at.position * (4.0 * p.rows), 3);
   return bumped_normal(at.normal, vec3(0.0, p.slope * flank, 0.0) + fine);
