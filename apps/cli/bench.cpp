@@ -87,6 +87,7 @@ void add_bench_command(CLI::App& app) {
   CLI::App* bench_app = app.add_subcommand("bench", "Measure methods against each other");
   bench_app->require_subcommand(1);
   add_bench_strip(*bench_app);
+  add_bench_atlas(*bench_app);
   add_bench_shading_normals(*bench_app);
   auto options = std::make_shared<BenchQualityOptions>();
   bench::QualityOptions& quality = options->quality;

@@ -7,6 +7,7 @@
 
 #include "bake/project.h"
 #include "bake/sample.h"
+#include "bake/surface_cells.h"
 #include "bake/texel_grid.h"
 #include "bake/verdict.h"
 
@@ -89,6 +90,7 @@ ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOption
 
   ReductionMap map = describe(surface, shader, options, basis);
   map.weights = WeightPyramid(weights);
+  map.clusters = build_clusters(surface, map.weights);
   stopwatch.lap("build");
 
   judge(grid, shader, sampled, map);

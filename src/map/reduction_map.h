@@ -10,6 +10,7 @@
 #include "base/vec.h"
 #include "map/footprint.h"
 #include "map/pyramid.h"
+#include "map/surface_clusters.h"
 
 namespace redmap {
 
@@ -41,6 +42,7 @@ struct ReductionMap {
   std::string verdict_reason;
   std::vector<BasisPlace> basis;
   WeightPyramid weights;
+  SurfaceClusters clusters;  ///< for footprints that no atlas can serve; empty where the map is one chart
 };
 
 }  // namespace redmap

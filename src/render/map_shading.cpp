@@ -1,4 +1,6 @@
 // Shading by a reduction map (paper, section 5.1, with the lookup and the normals that our design puts in its place).
+#include <array>
+
 #include "render/filtered_shading.h"
 
 namespace redmap {
@@ -12,7 +14,8 @@ class MapShading : public FilteredShading {
 
  protected:
   void shade_filtered(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
-    const auto weights = lookup_weights(*map_, batch.footprints, LookupFilter::kVarianceMatched, counts);
+    auto weights = lookup_weights(*map_, batch.footprints, LookupFilter::kVarianceMatched, counts);
+    if (!map_->clusters.empty()) blend_clusters(batch, weights, counts);
     basis_.shade(batch, batch.frames, weights, out, counts);
   }
 
@@ -21,6 +24,28 @@ class MapShading : public FilteredShading {
   }
 
  private:
+  /// Far away the surface itself is looked up instead of its atlas: docs/atlas.md.
+  void blend_clusters(const ShadingBatch& batch, std::vector<LaneVector<float>>& weights, RenderCounts& counts) const {
+    std::array<float, kMaxChannels> mean;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const Footprint& footprint = batch.footprints[i];
+      const float part = cluster_part(footprint, base_extent_);
+      if (part <= 0) continue;
+      ++counts.lookups;
+      const SurfaceHit& hit = batch.hits[i];
+      // Clusters are those of the surface at rest, facing outwards: what a pose turned is turned back.
+      const Vec3 outward = batch.turned[i] ? -hit.normal : hit.normal;
+      const Frame posed = make_frame(outward, hit.tangent), rest = make_frame(hit.rest.normal, hit.rest.tangent);
+      const auto on_surface = [&](Vec2 uv) {
+        return rest.to_world(posed.to_local(hit.dp_du * uv.x + hit.dp_dv * uv.y));
+      };
+      const bool found = map_->clusters.lookup(
+          {hit.rest.position, hit.rest.normal, on_surface(footprint.duv_dx), on_surface(footprint.duv_dy)}, mean);
+      for (std::size_t b = 0; found && b < weights.size(); ++b)
+        weights[b][i] = weights[b][i] * (1 - part) + mean[b] * part;
+    }
+  }
+
   std::shared_ptr<const ReductionMap> map_;
   BasisShading basis_;
 };

@@ -38,6 +38,20 @@ ReductionMap random_map(Extent extent, int basis) {
   return map;
 }
 
+/// The same with clusters: a thousand leaves anywhere.
+ReductionMap random_map_with_clusters(Extent extent, int basis) {
+  ReductionMap map = random_map(extent, basis);
+  constexpr std::size_t kLeaves = 1024;
+  Random random(5);
+  std::vector<ClusterPlace> leaves(kLeaves);
+  for (ClusterPlace& leaf : leaves)
+    leaf = {{random.next_float(), random.next_float(), random.next_float()}, {0, 0, 1}, 0.1f, random.next_float()};
+  std::vector<float> weights(kLeaves * basis);
+  for (float& w : weights) w = random.next_float();
+  map.clusters = SurfaceClusters(leaves, weights, basis);
+  return map;
+}
+
 void expect_equal(const ReductionMap& a, const ReductionMap& b) {
   EXPECT_EQ(describe_map(a), describe_map(b));
   ASSERT_EQ(a.weights.levels(), b.weights.levels());
@@ -80,6 +94,32 @@ TEST(MapFile, ReadsBackBitForBit_WhatWasWritten) {
       write_map(folder / "map.exr", map);
       expect_equal(map, read_map(folder / "map.exr"));
     }
+}
+
+TEST(MapFile, ClustersReadBackBitForBit) {
+  const TemporaryFolder folder;
+  const ReductionMap map = random_map_with_clusters({64, 64}, 3);
+  write_map(folder / "map.exr", map);
+  const ReductionMap read = read_map(folder / "map.exr");
+  expect_equal(map, read);
+  ASSERT_EQ(read.clusters.leaves(), map.clusters.leaves());
+  for (std::size_t i = 0; i < map.clusters.leaves(); ++i) {
+    EXPECT_EQ(read.clusters.leaf(i).position, map.clusters.leaf(i).position);
+    EXPECT_EQ(read.clusters.leaf(i).variance, map.clusters.leaf(i).variance);
+    const auto a = read.clusters.leaf_weights(i), b = map.clusters.leaf_weights(i);
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+  }
+}
+
+TEST(MapFile, TruncatedClusters_AreRefused) {
+  const TemporaryFolder folder;
+  const auto path = folder / "map.exr";
+  write_map(path, random_map_with_clusters({16, 16}, 2));
+  const std::string bytes = read_file(path);
+  for (const std::size_t missing : {1u, 100u, 5000u}) {
+    write_file(path, std::string_view(bytes).substr(0, bytes.size() - missing));
+    EXPECT_THROW(read_map(path), Error);
+  }
 }
 
 TEST(MapFile, BytesAreTheSame_ForAnyNumberOfThreads) {
@@ -139,8 +179,8 @@ TEST(MapFile, ForeignFiles_AreNamedForWhatTheyAre) {
   expect_refused(path, "OpenEXR cannot read");
 
   write_map(path, random_map({16, 16}, 1));
-  patch(path, "\"format_version\":2,", "\"format_version\":7,");
-  expect_refused(path, "format_version: expected 2, found 7");
+  patch(path, "\"format_version\":3,", "\"format_version\":7,");
+  expect_refused(path, "format_version: expected 3, found 7");
 }
 
 TEST(MapFile, HostileDescriptions_AreRefusedByKey) {
@@ -170,7 +210,7 @@ TEST(MapFile, OtherPicturesAreNoMaps) {
   const TemporaryFolder folder;
   Image picture(8, 8, 3);
   write_image(picture, folder / "picture.exr");
-  expect_refused(folder / "picture.exr", "expected 2 parts, found 1");
+  expect_refused(folder / "picture.exr", "expected 2 or 3 parts, found 1");
 }
 
 TEST(MapFile, DoesNotTouchTheOldFile_WhenItCannotWrite) {
