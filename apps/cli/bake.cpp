@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/parallel.h"
@@ -42,6 +43,44 @@ std::vector<Object> objects_to_bake(const Options& options, const SceneFile& fil
   return objects;
 }
 
+int map_size(const Options& options, const Object& object) { return options.size > 0 ? options.size : object.map_size; }
+
+/// What keeps two objects from sharing a map; empty if nothing does.
+std::string_view difference(const Options& options, const Object& a, const Object& b) {
+  if (a.surface->fingerprint() != b.surface->fingerprint()) return "surface";
+  if (a.shader->info().name != b.shader->info().name) return "shader";
+  if (a.shader->parameters() != b.shader->parameters()) return "shader parameters";
+  if (map_size(options, a) != map_size(options, b)) return "map_size";
+  return "";
+}
+
+/// The first object of every map, in the order of the scene, and those that share it.
+struct PlannedMap {
+  Object object;
+  std::vector<std::string> sharing;
+};
+
+/// Throws Error on objects whose maps would overwrite each other.
+std::vector<PlannedMap> plan_maps(const Options& options, const std::vector<Object>& objects) {
+  std::vector<PlannedMap> planned;
+  std::map<std::filesystem::path, std::size_t> index_of;
+  for (const Object& object : objects) {
+    const std::filesystem::path path = std::filesystem::absolute(map_path(options, object)).lexically_normal();
+    const auto [found, is_new] = index_of.emplace(path, planned.size());
+    if (is_new) {
+      planned.push_back({object, {}});
+      continue;
+    }
+    PlannedMap& first = planned[found->second];
+    if (const std::string_view what = difference(options, first.object, object); !what.empty())
+      throw Error(
+          "bake: {}: expected one object, or several that are alike, found \"{}\" and \"{}\", which differ in {}",
+          map_path(options, object).string(), first.object.name, object.name, what);
+    if (object.name != first.object.name) first.sharing.push_back(object.name);
+  }
+  return planned;
+}
+
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
@@ -51,7 +90,7 @@ void make_folder(const std::filesystem::path& folder) {
 nlohmann::json bake_object(const Options& options, const Object& object) {
   BakeOptions bake_options = options.bake;
   bake_options.selection = options.selection == "paper" ? BasisSelection::kPaper : BasisSelection::kGreedy;
-  bake_options.size = options.size > 0 ? options.size : object.map_size;
+  bake_options.size = map_size(options, object);
   const std::filesystem::path path = map_path(options, object);
   BakeReport report;
   ReductionMap map;
@@ -84,14 +123,10 @@ void bake_scene(const Options& options) {
   const SceneFile file = SceneFile::load(options.scene, options.overrides);
   print_remarks(file, options.common);
   nlohmann::json maps = nlohmann::json::array();
-  std::set<std::filesystem::path> written;
-  for (const Object& object : objects_to_bake(options, file)) {
-    // Objects may share a map; the scene has checked that they share surface and shader too.
-    if (!written.insert(map_path(options, object)).second) {
-      fmt::print("{}: shares {}\n", object.name, map_path(options, object).string());
-      continue;
-    }
-    maps.push_back(bake_object(options, object));
+  for (const PlannedMap& planned : plan_maps(options, objects_to_bake(options, file))) {
+    maps.push_back(bake_object(options, planned.object));
+    for (const std::string& name : planned.sharing)
+      fmt::print("{}: shares {}\n", name, map_path(options, planned.object).string());
     stop_if_interrupted();
   }
   write_json(options.common.json, {{"maps", maps}});
@@ -108,7 +143,8 @@ void add_bake_command(CLI::App& app) {
   auto options = std::make_shared<Options>();
   BakeOptions& bake_options = options->bake;
   sub->add_option("scene", options->scene, "the scene's TOML file")->required();
-  sub->add_option("--object", options->objects, "only this object (may be given several times)");
+  sub->add_option("--object", options->objects, "only this object (may be given several times)")
+      ->allow_extra_args(false);
   sub->add_option("--size", options->size, "texels across a map; default: as the scene says")
       ->check(CLI::Range(1, 16384));
   sub->add_option("--tolerance", bake_options.tolerance, "largest residual, in units of a sample's RMS")
@@ -119,7 +155,7 @@ void add_bake_command(CLI::App& app) {
   sub->add_option("--selection", options->selection, "who chooses the basis: greedy, or the paper's blocks")
       ->check(CLI::IsMember({"greedy", "paper"}))
       ->capture_default_str();
-  sub->add_option("-D", options->overrides, "object.parameter=value");
+  add_override_option(*sub, options->overrides);
   sub->add_option("-o,--output", options->folder, "folder for the maps");
   add_common_options(*sub, options->common);
   sub->callback([options] { bake_scene(*options); });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/basis.h"
+
 namespace redmap {
 
 namespace {
@@ -97,16 +99,7 @@ void FilteredShading::transmittance(std::span<const SurfaceHit> hits, std::span<
 }
 
 BasisShading::BasisShading(const Shader& shader, const ReductionMap& map)
-    : transmittance_(map.basis.size()), emission_(map.basis.size()) {
-  SurfacePoints places;
-  places.resize(map.basis.size());
-  for (std::size_t b = 0; b < map.basis.size(); ++b) {
-    places.position.set(b, map.basis[b].position);
-    places.normal.set(b, map.basis[b].normal);
-    places.tangent.set(b, map.basis[b].tangent);
-    places.uv.set(b, map.basis[b].uv);
-  }
-  patterns_ = shader.bind(places);
+    : patterns_(bind_basis(shader, map)), transmittance_(map.basis.size()), emission_(map.basis.size()) {
   Planes<3> values;
   const auto keep = [&](std::vector<Rgb>& kept) {
     for (std::size_t b = 0; b < kept.size(); ++b) kept[b] = values.rgb(b);

@@ -35,6 +35,7 @@ void require_map_of(const Object& object, const ReductionMap& map) {
   const ShaderInfo& shader = object.shader->info();
   if (map.surface_fingerprint != object.surface->fingerprint()) refuse("on another surface");
   if (map.shader != shader.name) refuse(fmt::format("from shader '{}', not '{}'", map.shader, shader.name));
+  if (map.shader_hash != shader.text_hash) refuse(fmt::format("from another version of shader '{}'", shader.name));
   for (std::size_t i = 0; i < shader.parameters.size(); ++i) {
     const std::string& name = shader.parameters[i].name;
     const auto found = map.parameters.find(name);

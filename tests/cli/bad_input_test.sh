@@ -67,4 +67,15 @@ refuses "$folder/missing.exr" inspect "$folder/missing.exr"
 refuses "missing" compare "$folder/missing.exr" "$folder/missing.exr"
 [ ! -e "$folder/out.png" ] || failures=$((failures + 1))
 
+# Objects may share a map where they are alike; -o keeps only the file's name. -D and --object leave the scene alone.
+printf '[camera]\nposition = [0, 0, 5]\n' >"$folder/shared.toml"
+for name in left right; do
+  printf '[object.%s]\nsurface = "sphere"\nshader = "checker"\nmap = "%s/m.exr"\nmap_size = 16\n' $name $name >>"$folder/shared.toml"
+done
+accepts "right: shares $folder/out/m.exr" bake -D left.scale=4 -D right.scale=4 "$folder/shared.toml" -o "$folder/out"
+refuses "found \"left\" and \"right\", which differ in shader parameters" bake -D left.scale=3 "$folder/shared.toml" -o "$folder/no"
+refuses "differ in map_size" bake -D object.left.map_size=8 "$folder/shared.toml" -o "$folder/no"
+accepts "left: checker" bake --object left "$folder/shared.toml" -D left.scale=3 -o "$folder/out"
+[ ! -e "$folder/no" ] || failures=$((failures + 1))
+
 [ $failures -eq 0 ]

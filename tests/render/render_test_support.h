@@ -78,6 +78,7 @@ inline std::shared_ptr<const ReductionMap> alternating_map(const Object& object,
   map->shader = object.shader->info().name;
   for (std::size_t i = 0; i < object.shader->parameters().size(); ++i)
     map->parameters[object.shader->info().parameters[i].name] = object.shader->parameters()[i];
+  map->shader_hash = object.shader->info().text_hash;
   map->surface_fingerprint = object.surface->fingerprint();
   map->size = size;
   map->basis = {first, second};
