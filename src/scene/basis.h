@@ -1,5 +1,5 @@
-// The basis reflectances of a map as a shader's patterns: a reduction map holds places, not reflectances (paper, section
-// 4.3).
+// The basis reflectances of a map as a shader's patterns: a reduction map holds places, not reflectances (paper,
+// section 4.3).
 #pragma once
 
 #include <memory>
