@@ -89,8 +89,12 @@ bool is_finished(const std::filesystem::path& picture, std::uint64_t fingerprint
   return !found.empty() && std::filesystem::exists(picture) && found == fingerprint_text(picture, fingerprint);
 }
 
+/// A frame that cannot be remembered is whole all the same: it is only rendered again.
 void remember_finished(const std::filesystem::path& picture, std::uint64_t fingerprint) {
-  write_file(fingerprint_path(picture), fingerprint_text(picture, fingerprint));
+  try {
+    write_file(fingerprint_path(picture), fingerprint_text(picture, fingerprint));
+  } catch (const Error&) {
+  }
 }
 
 nlohmann::json frame_json(int frame, const std::string& path, const RenderedFrame& rendered) {

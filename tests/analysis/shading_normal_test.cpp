@@ -35,8 +35,18 @@ TEST_P(EveryModel, Cascade_NeverReportsAWrongNormal) {
     }
 }
 
-TEST_P(EveryModel, Cascade_FindsSmoothOnes_InFortyCalls_AsFarAsPrecisionAllows) {
-  if (!GetParam().smooth) GTEST_SKIP() << "not smooth";
+std::vector<bench::ReflectanceModel> smooth_models() {
+  std::vector<bench::ReflectanceModel> smooth;
+  for (const auto& model : bench::reflectance_models())
+    if (model.smooth) smooth.push_back(model);
+  return smooth;
+}
+
+class SmoothModel : public testing::TestWithParam<ReflectanceModel> {};
+INSTANTIATE_TEST_SUITE_P(Reflectance, SmoothModel, testing::ValuesIn(smooth_models()),
+                         [](const auto& model) { return std::string(model.param.name); });
+
+TEST_P(SmoothModel, Cascade_FindsIt_InFortyCalls_AsFarAsPrecisionAllows) {
   const ShadingNormalsRow exact = measure_shading_normals(GetParam(), NormalMethod::kCascade, {kNormals, 40, false});
   EXPECT_EQ(exact.found, kNormals);
   EXPECT_LE(exact.calls, 40);

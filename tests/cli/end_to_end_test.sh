@@ -136,7 +136,7 @@ refuses "marbel" bench quality --objects sphere --shaders marbel
 mkdir small
 if mount -t tmpfs -o size=8k tmpfs small 2>/dev/null; then
   refuses "small" bake scene.toml -o small/maps --size 256
-  refuses "small" render scene.toml -o small/frame.exr --method original
+  refuses "small" render scene.toml -o small/frame.exr --method original -D camera.width=200 -D camera.height=200
   [ -z "$(find small -type f)" ] || fail "expected nothing on the full disk, found: $(find small -type f)"
 fi
 
