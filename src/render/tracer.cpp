@@ -128,7 +128,8 @@ struct Tracer::Embree : Handles {
 };
 
 Tracer::Tracer(const Scene& scene) : embree_(std::make_unique<Embree>()), placements_(scene.objects.size()) {
-  embree_->device = rtcNewDevice("threads=1,set_affinity=0");
+  // No "threads=": Embree would limit all of TBB to as many.
+  embree_->device = rtcNewDevice("set_affinity=0");
   if (!embree_->device) throw Error("the ray tracer Embree did not start (error {})", int(rtcGetDeviceError(nullptr)));
   embree_->world = rtcNewScene(embree_->device);
   rtcSetSceneFlags(embree_->world, RTC_SCENE_FLAG_ROBUST);
