@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "map/parameter_channels.h"
 #include "render/filtered_shading.h"
 
 namespace redmap {
 
 namespace {
-
-// Channels of bake/baselines.h.
-enum Channel { kDiffuse = 0, kSpecular = 3, kTransmittance = 6, kWeightedRoughness = 9, kSpecularLuminance = 10 };
 
 // Tokuyoshi and Kaplanyan 2019, "Improved geometric specular antialiasing": kernel variance is clamped at .18. The
 // pixel kernel's variance is 1/12, the same box of one (sub-)pixel that the footprint is filtered with, where theirs is
@@ -27,11 +25,15 @@ float kernel_roughness(const SurfaceHit& hit, const Footprint& footprint) {
 
 void set_material(const FilteredTexel& texel, const ShadingBatch& batch, std::size_t i, Materials& materials) {
   const auto& p = texel.channel;
-  materials.diffuse.set(i, Vec3{p[kDiffuse], p[kDiffuse + 1], p[kDiffuse + 2]});
-  materials.specular.set(i, Vec3{p[kSpecular], p[kSpecular + 1], p[kSpecular + 2]});
-  materials.transmittance.set(i, Vec3{p[kTransmittance], p[kTransmittance + 1], p[kTransmittance + 2]});
+  materials.diffuse.set(
+      i, Vec3{p[ParameterChannels::kDiffuse], p[ParameterChannels::kDiffuse + 1], p[ParameterChannels::kDiffuse + 2]});
+  materials.specular.set(i, Vec3{p[ParameterChannels::kSpecular], p[ParameterChannels::kSpecular + 1],
+                                 p[ParameterChannels::kSpecular + 2]});
+  materials.transmittance.set(i, Vec3{p[ParameterChannels::kTransmittance], p[ParameterChannels::kTransmittance + 1],
+                                      p[ParameterChannels::kTransmittance + 2]});
   // Phong exponent e and roughness a: a^2 = 2 / (e + 2).
-  const float mean = 2 * p[kWeightedRoughness] / std::max(p[kSpecularLuminance], 1e-9f);
+  const float mean =
+      2 * p[ParameterChannels::kWeightedRoughness] / std::max(p[ParameterChannels::kSpecularLuminance], 1e-9f);
   const float roughness = mean + kernel_roughness(batch.hits[i], batch.footprints[i]);
   materials.exponent[0][i] = std::clamp(2 / std::max(roughness, 1e-6f) - 2, 0.0f, 1e6f);
 }
@@ -59,7 +61,8 @@ class ParametersShading : public FilteredShading {
 
   Rgb filtered_transmittance(const Footprint& footprint) const override {
     const auto& p = parameters_->lookup(footprint, LookupFilter::kVarianceMatched).channel;
-    return {p[kTransmittance], p[kTransmittance + 1], p[kTransmittance + 2]};
+    return {p[ParameterChannels::kTransmittance], p[ParameterChannels::kTransmittance + 1],
+            p[ParameterChannels::kTransmittance + 2]};
   }
 
  private:
