@@ -135,7 +135,7 @@ Eigen::MatrixX2d wanted_edges(const FlatChart& chart, const std::vector<FlatTria
 }  // namespace
 
 bool solve_conformal(FlatChart& chart) {
-  const std::vector<std::pair<int, int>> boundary = boundary_edges(chart);
+  const std::vector<std::pair<int, int>>& boundary = chart.boundary;
   if (boundary.size() < 3) return false;
   const auto [pin_0, pin_1] = find_pins(chart, boundary);
   const double distance = (chart.positions[pin_0] - chart.positions[pin_1]).norm();

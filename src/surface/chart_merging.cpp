@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace redmap {
 
@@ -26,7 +27,7 @@ class Merger {
       if (charts_[chart].faces.empty()) continue;
       for (const int neighbour : best_neighbours(chart)) {
         if (charts_[chart].area + charts_[neighbour].area > largest_area) continue;
-        if (!join(chart, neighbour, max_l2_stretch)) continue;
+        if (failed_.contains({chart, neighbour}) || !join(chart, neighbour, max_l2_stretch)) continue;
         merged = true;
         break;
       }
@@ -64,7 +65,11 @@ class Merger {
     faces.insert(faces.end(), charts_[chart].faces.begin(), charts_[chart].faces.end());
     std::sort(faces.begin(), faces.end());
     FlatChart joined = cut_chart(mesh_, graph_, std::move(faces));
-    if (!is_disk(joined) || !flatten(joined) || !is_sound(joined, max_l2_stretch)) return false;
+    if (!is_disk(joined) || !flatten(joined) || !is_sound(joined, max_l2_stretch)) {
+      failed_.insert({chart, neighbour}), failed_.insert({neighbour, chart});
+      return false;
+    }
+    std::erase_if(failed_, [&](const auto& pair) { return pair.first == neighbour || pair.second == neighbour; });
     charts_[neighbour] = std::move(joined);
     charts_[chart] = {};
     label(neighbour);
@@ -75,6 +80,7 @@ class Merger {
   const FaceGraph& graph_;
   std::vector<FlatChart>& charts_;
   std::vector<int> chart_of_face_;
+  std::set<std::pair<int, int>> failed_;  ///< not sound together, as they are now
 };
 
 }  // namespace

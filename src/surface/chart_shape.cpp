@@ -63,17 +63,17 @@ void summarize(ChartShape& shape) {
 
 Outline outline_of(const FlatChart& chart) {
   Outline outline;
-  for (const auto& [a, b] : boundary_edges(chart)) outline.push_back({chart.plane[a], chart.plane[b]});
+  for (const auto& [a, b] : chart.boundary) outline.push_back({chart.plane[a], chart.plane[b]});
   return outline;
 }
 
 ChartShape make_shape(const Outline& outline, double angle, double scale, const PackingGrid& grid) {
-  const Eigen::Rotation2Dd turn(angle);
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix() * scale;
   Outline turned = outline;
-  Vector2d lower = turn * outline.front()[0] * scale, upper = lower;
+  Vector2d lower = turn * outline.front()[0], upper = lower;
   for (auto& edge : turned)
     for (Vector2d& end : edge) {
-      end = turn * end * scale;
+      end = turn * end;
       lower = lower.cwiseMin(end), upper = upper.cwiseMax(end);
     }
 

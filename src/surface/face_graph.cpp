@@ -77,19 +77,20 @@ FaceGraph make_face_graph(const TriangleMesh& mesh) {
 }
 
 FaceGraph subgraph(const FaceGraph& graph, std::span<const int> faces) {
-  // Faces of the whole, sorted, beside their index in the part.
-  std::vector<std::pair<int, int>> index_of;
-  for (int i = 0; i < static_cast<int>(faces.size()); ++i) index_of.emplace_back(faces[i], i);
-  std::sort(index_of.begin(), index_of.end());
   FaceGraph part;
+  if (faces.empty()) return part;
+  // The index in the part of every face from the first to the last.
+  const auto [first, last] = std::minmax_element(faces.begin(), faces.end());
+  std::vector<int> index_of(*last - *first + 1, -1);
+  for (int i = 0; i < static_cast<int>(faces.size()); ++i) index_of[faces[i] - *first] = i;
   for (const int f : faces) {
     part.normals.push_back(graph.normals[f]);
     part.centroids.push_back(graph.centroids[f]);
     part.areas.push_back(graph.areas[f]);
     std::array<int, 3> neighbours{-1, -1, -1};
     for (int k = 0; k < 3; ++k) {
-      const auto found = std::lower_bound(index_of.begin(), index_of.end(), std::pair{graph.neighbours[f][k], 0});
-      if (found != index_of.end() && found->first == graph.neighbours[f][k]) neighbours[k] = found->second;
+      const int next = graph.neighbours[f][k];
+      if (next >= *first && next <= *last) neighbours[k] = index_of[next - *first];
     }
     part.neighbours.push_back(neighbours);
   }

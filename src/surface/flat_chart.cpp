@@ -23,7 +23,7 @@ struct Rectangle {
   double area() const { return (upper - lower).prod(); }
 };
 
-Rectangle bounds_turned(const FlatChart& chart, const Eigen::Rotation2Dd& turn) {
+Rectangle bounds_turned(const FlatChart& chart, const Eigen::Matrix2d& turn) {
   Rectangle r{turn * chart.plane[0], turn * chart.plane[0]};
   for (const Vector2d& p : chart.plane) {
     const Vector2d q = turn * p;
@@ -45,13 +45,14 @@ bool scale_to_area(FlatChart& chart) {
 /// The smallest of 30 rectangles, corner at the origin.
 void turn_to_smallest_rectangle(FlatChart& chart) {
   constexpr int kTurns = 30;  // 3 degrees apart over a quarter turn: within 1 % of the smallest rectangle
-  Eigen::Rotation2Dd best(0);
+  Eigen::Matrix2d best = Eigen::Matrix2d::Identity();
+  Rectangle smallest = bounds_turned(chart, best);
   for (int i = 1; i < kTurns; ++i) {
-    const Eigen::Rotation2Dd turn(std::numbers::pi / 2 * i / kTurns);
-    if (bounds_turned(chart, turn).area() < bounds_turned(chart, best).area()) best = turn;
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(std::numbers::pi / 2 * i / kTurns).toRotationMatrix();
+    const Rectangle turned = bounds_turned(chart, turn);
+    if (turned.area() < smallest.area()) best = turn, smallest = turned;
   }
-  const Vector2d lower = bounds_turned(chart, best).lower;
-  for (Vector2d& p : chart.plane) p = best * p - lower;
+  for (Vector2d& p : chart.plane) p = best * p - smallest.lower;
 }
 
 /// Whether the segments (a, b) and (c, d) have a point in common.
@@ -66,7 +67,7 @@ bool touch(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector
 
 /// A disk whose triangles all keep their orientation overlaps itself only if its boundary does. Sweeps along x.
 bool boundary_crosses_itself(const FlatChart& chart) {
-  std::vector<std::pair<int, int>> edges = boundary_edges(chart);
+  std::vector<std::pair<int, int>> edges = chart.boundary;
   const auto left = [&](const auto& e) { return std::min(chart.plane[e.first].x(), chart.plane[e.second].x()); };
   const auto right = [&](const auto& e) { return std::max(chart.plane[e.first].x(), chart.plane[e.second].x()); };
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return left(a) < left(b); });
@@ -80,6 +81,16 @@ bool boundary_crosses_itself(const FlatChart& chart) {
   return false;
 }
 
+/// Edges without a neighbour, ordered by their vertices.
+void find_boundary(const std::vector<std::array<int, 3>>& neighbours, FlatChart& chart) {
+  for (std::size_t f = 0; f < neighbours.size(); ++f)
+    for (int k = 0; k < 3; ++k)
+      if (neighbours[f][k] < 0) chart.boundary.emplace_back(chart.triangles[f][k], chart.triangles[f][(k + 1) % 3]);
+  std::sort(chart.boundary.begin(), chart.boundary.end(), [](const auto& a, const auto& b) {
+    return std::minmax(a.first, a.second) < std::minmax(b.first, b.second);
+  });
+}
+
 /// The mean of the squared singular values of the map from the plane to the surface (Sander et al. 2001).
 double squared_l2_stretch(const FlatChart& chart, const std::array<int, 3>& t, double twice_area) {
   const Vector2d &p = chart.plane[t[0]], &q = chart.plane[t[1]], &r = chart.plane[t[2]];
@@ -90,24 +101,6 @@ double squared_l2_stretch(const FlatChart& chart, const std::array<int, 3>& t, d
 }
 
 }  // namespace
-
-std::vector<std::pair<int, int>> boundary_edges(const FlatChart& chart) {
-  std::vector<std::array<int, 4>> edges;  // low, high, from, to
-  for (const auto& t : chart.triangles)
-    for (int k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      edges.push_back({std::min(a, b), std::max(a, b), a, b});
-    }
-  std::sort(edges.begin(), edges.end());
-  std::vector<std::pair<int, int>> boundary;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto same = [&](std::size_t j) {
-      return j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1];
-    };
-    if (!same(i + 1) && !(i > 0 && same(i - 1))) boundary.emplace_back(edges[i][2], edges[i][3]);
-  }
-  return boundary;
-}
 
 std::array<Vector2d, 3> local_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double x1 = (b - a).norm();
@@ -158,12 +151,13 @@ FlatChart cut_chart(const TriangleMesh& mesh, const FaceGraph& graph, std::vecto
       chart.triangles[f][k] = vertex;
     }
   }
+  find_boundary(neighbours, chart);
   return chart;
 }
 
 bool is_disk(const FlatChart& chart) {
   // Euler's characteristic of a connected surface with boundary is 1 for the disk alone.
-  const auto boundary = static_cast<int>(boundary_edges(chart).size());
+  const auto boundary = static_cast<int>(chart.boundary.size());
   const auto faces = static_cast<int>(chart.triangles.size());
   const int edges = (3 * faces + boundary) / 2;
   return static_cast<int>(chart.positions.size()) - edges + faces == 1;

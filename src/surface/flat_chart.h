@@ -14,15 +14,13 @@ struct FlatChart {
   std::vector<std::array<int, 3>> triangles;  ///< of local vertices, one a face
   std::vector<Eigen::Vector3d> positions;     ///< of local vertices
   std::vector<Eigen::Vector2d> plane;         ///< the same, flattened; lengths as on the surface
+  std::vector<std::pair<int, int>> boundary;  ///< edges of one triangle only: from and to local vertices, ordered
   double area = 0;                            ///< on the surface
   double stretch_times_area = 0;              ///< integral of the squared L2 stretch (Sander et al. 2001)
 };
 
 /// Cuts `faces` out along every edge whose other face is not among them: vertices are shared across inner edges only.
 FlatChart cut_chart(const TriangleMesh& mesh, const FaceGraph& graph, std::vector<int> faces);
-
-/// Edges with a triangle on one side only: from and to local vertices, in the triangle's direction.
-std::vector<std::pair<int, int>> boundary_edges(const FlatChart& chart);
 
 /// A triangle in its own plane: corner 0 at the origin, corner 1 on the x axis. All zero if the first two are one.
 std::array<Eigen::Vector2d, 3> local_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,

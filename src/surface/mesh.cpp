@@ -2,10 +2,12 @@
 #include "surface/mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -45,11 +47,23 @@ void check(const std::filesystem::path& path, const TriangleMesh& mesh) {
                   mesh.normals[i].y, mesh.normals[i].z);
 }
 
+/// In double: the products of float cancel to anything where a triangle is thin.
 bool has_area(const TriangleMesh& mesh, const Triangle& t) {
-  const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
-  const Vec3 normal = cross(b - a, c - a);
-  // So thin that float cannot give it a normal counts as no area.
-  return std::isnormal(dot(normal, normal));
+  std::array<double, 3> edge[3];
+  double longest = 0, squared_area = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 from = mesh.positions[t[k]], to = mesh.positions[t[(k + 1) % 3]];
+    edge[k] = {double(to.x) - from.x, double(to.y) - from.y, double(to.z) - from.z};
+    longest = std::max(longest, std::hypot(edge[k][0], edge[k][1], edge[k][2]));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const double normal = edge[0][i] * edge[1][j] - edge[0][j] * edge[1][i];
+    squared_area += normal * normal;
+  }
+  // A height below the rounding of float beside the longest side, or a normal beyond its range, is none.
+  return std::sqrt(squared_area) > std::numeric_limits<float>::epsilon() * longest * longest &&
+         squared_area > std::numeric_limits<float>::min();
 }
 
 std::vector<std::uint8_t> triangles_with_area(const TriangleMesh& mesh) {

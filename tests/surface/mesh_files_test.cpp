@@ -83,6 +83,18 @@ TEST(MeshFiles, ZeroAreaTrianglesAreDroppedAndCounted) {
   EXPECT_THAT(error_of(folder.write("none.obj", std::string(kTriangleObj) + "f 1 1 2\n")), HasSubstr("zero-area"));
 }
 
+TEST(MeshFiles, AreasAreJudgedInDouble_CollinearPointsHaveNoneAndThinTrianglesDo) {
+  const TemporaryFolder folder;
+  // Multiples of one point: in float the products of their differences do not cancel.
+  const auto flat = folder.write(
+      "flat.obj", "v 0.1 0.3 0.7\nv 0.2 0.6 1.4\nv 0.4 1.2 2.8\nv 1 0 0\nv 1 1e4 0\nv 1.01 5e3 0\nf 1 2 3\nf 4 5 6\n");
+  MeshReport report;
+  const TriangleMesh mesh = read_mesh(flat, &report);
+  EXPECT_EQ(report.zero_area_triangles, 1u);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.triangles[0][0], 3u);
+}
+
 /// A tetrahedron as PLY, with an element to skip and every scalar kind on the way.
 std::string ply_tetrahedron(bool ascii, bool big_endian) {
   std::string text = std::string("ply\nformat ") +
