@@ -12,9 +12,14 @@ std::vector<ObjectData> load_object_data(const Scene& scene, Method method) {
   std::vector<ObjectData> data(scene.objects.size());
   for (std::size_t i = 0; i < data.size(); ++i) {
     const Object& object = scene.objects[i];
-    if (method == Method::kParameters && object.shader->info().has_material)
+    const ShaderInfo& shader = object.shader->info();
+    if (method == Method::kParameters && shader.has_material) {
       data[i].parameters = std::make_shared<const Pyramid<float>>(
           build_parameter_pyramid(*object.surface, *object.shader, object.map_size));
+      if (shader.perturbs_normals)
+        data[i].slopes = std::make_shared<const Pyramid<float>>(
+            build_slope_pyramid(*object.surface, *object.shader, object.map_size));
+    }
     if (method != Method::kMap && method != Method::kPaper) continue;
     if (!std::filesystem::exists(object.map_path))
       throw Error("object '{}' has no reduction map at {}: run `redmap bake` on the scene first", object.name,

@@ -23,7 +23,7 @@ namespace redmap::cli {
 namespace {
 
 // Raised whenever the same scene, map and settings would give another picture.
-constexpr std::uint64_t kRendererVersion = 1;
+constexpr std::uint64_t kRendererVersion = 2;
 
 struct RenderCommandOptions {
   CommonOptions common;

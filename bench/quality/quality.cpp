@@ -229,6 +229,8 @@ std::vector<ObjectData> bake_data(const Surface& surface, const Shader& shader, 
   data.map = std::make_shared<const ReductionMap>(bake(surface, shader, bake_options));
   if (has_parameters(shader.info()))
     data.parameters = std::make_shared<const Pyramid<float>>(build_parameter_pyramid(surface, shader, map_size));
+  if (shader.info().perturbs_normals)
+    data.slopes = std::make_shared<const Pyramid<float>>(build_slope_pyramid(surface, shader, map_size));
   data.normals = std::make_shared<const Pyramid<float>>(build_normal_pyramid(surface, map_size));
   return {data};
 }

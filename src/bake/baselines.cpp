@@ -6,6 +6,7 @@
 #include "bake/texel_grid.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "map/slope_moments.h"
 
 namespace redmap {
 namespace {
@@ -16,9 +17,8 @@ using Channels = ParameterChannels;
 constexpr int kSubSamples = 4;
 /// Channels that differ by more are worth sub-samples: two steps of eight bits.
 constexpr float kDifference = 2.0f / 255;
-/// Keeps the roughness defined where nothing is specular.
-constexpr float kLuminanceFloor = 1e-4f;
-
+/// So are slopes that differ by a fifth of the narrowest lobe's width (GGX of roughness .05).
+constexpr float kSlopeDifference = 0.01f;
 /// Every texel from its centre, then from sub-samples where neighbours differ.
 Pyramid<float> build_averaged(const Surface& surface, int size, int channels, const EvaluatePoints& evaluate,
                               const ValuesDiffer& differ) {
@@ -32,29 +32,6 @@ Pyramid<float> build_averaged(const Surface& surface, int size, int channels, co
 
 }  // namespace
 
-void parameter_channels(const Materials& materials, std::size_t i, float* out) {
-  for (int c = 0; c < 3; ++c) {
-    out[Channels::kDiffuse + c] = materials.diffuse[c][i];
-    out[Channels::kSpecular + c] = materials.specular[c][i];
-    out[Channels::kTransmittance + c] = materials.transmittance[c][i];
-  }
-  const Rgb specular = materials.specular.rgb(i);
-  const float luminance = (specular.r + specular.g + specular.b) / 3 + kLuminanceFloor;
-  out[Channels::kSpecularLuminance] = luminance;
-  out[Channels::kWeightedRoughness] = luminance / (std::max(0.0f, materials.exponent[0][i]) + 2);
-}
-
-void set_material(const float* channels, std::size_t i, Materials& materials) {
-  for (int c = 0; c < 3; ++c) {
-    materials.diffuse[c][i] = channels[Channels::kDiffuse + c];
-    materials.specular[c][i] = channels[Channels::kSpecular + c];
-    materials.transmittance[c][i] = channels[Channels::kTransmittance + c];
-  }
-  const float roughness = channels[Channels::kWeightedRoughness];
-  materials.exponent[0][i] =
-      roughness > 0 ? std::max(0.0f, channels[Channels::kSpecularLuminance] / roughness - 2) : 0.0f;
-}
-
 Pyramid<float> build_parameter_pyramid(const Surface& surface, const Shader& shader, int size) {
   if (!shader.info().has_material)
     throw Error("parameters: shader \"{}\" declares no material(): expected one for this baseline", shader.info().name);
@@ -67,6 +44,24 @@ Pyramid<float> build_parameter_pyramid(const Surface& surface, const Shader& sha
     for (int c = 0; c < Channels::kCount; ++c)
       if (std::abs(a[c] - b[c]) > kDifference * std::max(std::abs(a[c]), std::abs(b[c]))) return true;
     return false;
+  });
+}
+
+Pyramid<float> build_slope_pyramid(const Surface& surface, const Shader& shader, int size) {
+  if (!shader.info().perturbs_normals)
+    throw Error("slopes: shader \"{}\" declares no shading_normal(): expected one for this baseline",
+                shader.info().name);
+  std::vector<Planes<3>> slots(pipeline_slots());
+  const auto evaluate = [&](const SurfacePoints& points, std::span<const std::size_t>, std::size_t slot, float* out) {
+    shader.bind(points)->shading_normals(slots[slot]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3 normal = points.normal.get(i), tangent = points.tangent.get(i);
+      const Frame frame{tangent, cross(normal, tangent), normal};
+      slope_moments(frame.to_local(slots[slot].get(i)), out + i * SlopeMoments::kCount);
+    }
+  };
+  return build_averaged(surface, size, SlopeMoments::kCount, evaluate, [](const float* a, const float* b) {
+    return std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1])) > kSlopeDifference;
   });
 }
 

@@ -15,7 +15,7 @@ namespace {
 std::unique_ptr<ObjectShading> make_shading(const Object& object, Method method, const ObjectData& data) {
   switch (method) {
     case Method::kParameters:
-      return make_parameters_shading(object.shader, data.parameters);
+      return make_parameters_shading(object.shader, data.parameters, data.slopes);
     case Method::kPaper:
       return make_paper_shading(object.shader, data.map, data.normals);
     case Method::kMap:

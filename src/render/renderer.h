@@ -58,9 +58,10 @@ struct RenderedFrame {
 
 /// What an object is shaded from, as far as the method needs it.
 struct ObjectData {
-  std::shared_ptr<const ReductionMap> map;           ///< kMap and kPaper
-  std::shared_ptr<const Pyramid<float>> parameters;  ///< kParameters
-  std::shared_ptr<const Pyramid<float>> normals;     ///< kPaper
+  std::shared_ptr<const ReductionMap> map;            ///< kMap and kPaper
+  std::shared_ptr<const Pyramid<float>> parameters;   ///< kParameters
+  std::shared_ptr<const Pyramid<float>> normals;      ///< kPaper
+  std::shared_ptr<const Pyramid<float>> slopes = {};  ///< kParameters, of shaders that perturb normals
 };
 
 class Renderer {

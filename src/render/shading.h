@@ -65,10 +65,12 @@ std::unique_ptr<ObjectShading> make_shader_shading(std::shared_ptr<const Shader>
 std::unique_ptr<ObjectShading> make_map_shading(std::shared_ptr<const Shader> shader,
                                                 std::shared_ptr<const ReductionMap> map);
 
-/// What production does today: mip-mapped averaged material parameters (see bake/baselines.h), roughness widened by
-/// their variance and by the curvature in the footprint (Tokuyoshi and Kaplanyan 2019), the same filter and blend.
+/// What production does today: mip-mapped averaged material parameters and slopes of shading normals (see
+/// bake/baselines.h), lobes widened by their variance and by the curvature in the footprint (Tokuyoshi and Kaplanyan
+/// 2019), the same filter and blend. `slopes` only for shaders that perturb normals.
 std::unique_ptr<ObjectShading> make_parameters_shading(std::shared_ptr<const Shader> shader,
-                                                       std::shared_ptr<const Pyramid<float>> parameters);
+                                                       std::shared_ptr<const Pyramid<float>> parameters,
+                                                       std::shared_ptr<const Pyramid<float>> slopes);
 
 /// The paper's section 5 to the letter, bump maps aside: trilinear lookup in the enclosing square, stored mean normal,
 /// blend by footprint area over one to two texels.

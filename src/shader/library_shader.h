@@ -158,7 +158,10 @@ bool store_materials(const LaneVector<Bound>& blocks, std::size_t size, Material
       LanePlanes<Vector>::store(out.diffuse, b * kLanes, m.diffuse);
       LanePlanes<Vector>::store(out.specular, b * kLanes, m.specular);
       LanePlanes<Vector>::store(out.transmittance, b * kLanes, m.transmittance);
+      LanePlanes<Vector>::store(out.roughness, b * kLanes, m.roughness);
       lanes::store(out.exponent[0] + b * kLanes, m.exponent);
+      lanes::store(out.ggx[0] + b * kLanes, m.ggx);
+      lanes::store(out.grazing[0] + b * kLanes, m.grazing);
     }
     return true;
   } else {

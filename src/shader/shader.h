@@ -25,13 +25,16 @@ struct DirectionPairs {
   void resize(std::size_t size) { to_light.resize(size), to_viewer.resize(size); }
 };
 
-/// What a production pipeline would export of a place, for shaders that can say it: Phong parameters. Used by the
-/// `parameters` baseline only; baking and rendering a reduction map never ask.
+/// What a production pipeline would export of a place, for shaders that can say it: the prelude's `Material`. Used by
+/// the `parameters` baseline only; baking and rendering a reduction map never ask.
 struct Materials {
   Planes<3> diffuse, specular, transmittance;
-  Planes<1> exponent;
+  Planes<1> exponent, ggx, grazing;
+  Planes<3> roughness;  ///< squared, of the GGX lobe: xx, xy, yy over the shading frame
+  Planes<3> normals;    ///< covariance of the normals about the shading normal, likewise; shaders leave it nil
   void resize(std::size_t size) {
-    diffuse.resize(size), specular.resize(size), transmittance.resize(size), exponent.resize(size);
+    diffuse.resize(size), specular.resize(size), transmittance.resize(size), roughness.resize(size);
+    exponent.resize(size), ggx.resize(size), grazing.resize(size), normals.resize(size);
   }
 };
 
@@ -92,8 +95,8 @@ const ShaderInfo& library_shader_info(std::string_view name);
 /// shader or parameter (naming the nearest), a wrong type or a value out of range.
 std::shared_ptr<const Shader> make_library_shader(std::string_view name, const ParameterOverrides& overrides = {});
 
-/// The Phong reflectance that `Materials` are parameters of, as the library's shaders evaluate it.
-/// Material i under pair i. `out` is resized.
+/// The reflectance that `Materials` are parameters of, as the library's shaders evaluate it, over normals that vary by
+/// `normals` (include/widened.glsl). Material i under pair i. `out` is resized.
 void material_radiance_each(const Materials& materials, const DirectionPairs& pairs, Planes<3>& out);
 
 }  // namespace redmap

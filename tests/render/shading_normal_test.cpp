@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bake/bake.h"
+#include "bake/baselines.h"
 #include "base/error.h"
 #include "render/shading.h"
 #include "render_test_support.h"
@@ -78,13 +79,53 @@ TEST(ShaderShading, TakesTheCosineToTheShadersNormal_NotToTheSurfaces) {
                   1e-6f);
 }
 
-TEST(ParametersShading, RefusesShadersThatPerturbNormals) {
+TEST(ParametersShading, RefusesShadersThatPerturbNormals_WithoutTheirSlopes) {
   try {
-    make_parameters_shading(std::make_shared<LeaningLambert>(Vec3{0, 0, 1}), nullptr);
+    make_parameters_shading(std::make_shared<LeaningLambert>(Vec3{0, 0, 1}), nullptr, nullptr);
     FAIL() << "expected an error";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("shading_normal()"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("slopes"), std::string::npos) << error.what();
   }
+}
+
+/// A pyramid of one value everywhere, for the sphere.
+std::shared_ptr<const Pyramid<float>> constant_pyramid(const Surface& surface, std::vector<float> value) {
+  BaseLevel base(surface.map_extent(256), static_cast<int>(value.size()), true);
+  for (std::size_t i = 0; i < base.values.size(); ++i) base.values[i] = value[i % value.size()];
+  std::fill(base.coverage.begin(), base.coverage.end(), 1.0f);
+  return std::make_shared<const Pyramid<float>>(base);
+}
+
+TEST(ParametersShading, OfOneSlopeEverywhere_IsTheShaderAboutThatNormal) {
+  // Bumps without height are flat; slopes planted in their pyramid are all that leans.
+  const auto shader = make_library_shader("hammered_metal", {{"slope", {0}}, {"roughness", {0.3f}}});
+  const Scene scene = test::sphere_scene(shader, {0.3f, 0.2f, 1}, 48);
+  const Surface& surface = *scene.objects[0].surface;
+  const auto parameters = std::make_shared<const Pyramid<float>>(build_parameter_pyramid(surface, *shader, 256));
+  RenderOptions options;
+  options.method = Method::kParameters;
+  const auto render = [&](std::vector<float> slopes) {
+    ObjectData data{nullptr, parameters, nullptr};
+    data.slopes = constant_pyramid(surface, std::move(slopes));
+    return Renderer(scene, options, {data}).render(scene, 1).image;
+  };
+  RenderOptions original;
+  original.method = Method::kOriginal;
+  const Image flat = Renderer(scene, original, {{}}).render(scene, 1).image;
+  const Image level = render({0, 0, 0, 0, 0}), leaning = render({0.2f, 0, 0.04f, 0, 0}),
+              rough = render({0, 0, 0.02f, 0, 0.02f});
+  float largest = 0, leaning_largest = 0;
+  double level_peak = 0, rough_peak = 0;
+  for (std::size_t i = 0; i < flat.data.size(); ++i) {
+    largest = std::max(largest, std::abs(level.data[i] - flat.data[i]));
+    leaning_largest = std::max(leaning_largest, std::abs(leaning.data[i] - flat.data[i]));
+    level_peak = std::max<double>(level_peak, level.data[i]), rough_peak = std::max<double>(rough_peak, rough.data[i]);
+  }
+  // What is left is the sphere's own curvature within a pixel.
+  EXPECT_LT(largest, 0.02f * static_cast<float>(level_peak));
+  EXPECT_GT(leaning_largest, 0.1f * static_cast<float>(level_peak));
+  // Squared roughness .09 becomes .13, and the peak goes down with it.
+  EXPECT_NEAR(rough_peak / level_peak, 0.09 / 0.13, 0.05);
 }
 
 TEST(Renderer, MapOfAShaderThatPerturbsNormals_IsSupersampledAndCounted) {

@@ -52,3 +52,9 @@ vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
   vec3 reflectance = m.diffuse * (1.0 / pi) + vec3(m.gloss * blinn_lobe(m.exponent, to_light, to_viewer));
   return reflectance * visible_cosine(to_light, to_viewer);
 }
+
+// The Phong lobe of the same peak, and of the same width in the plane of incidence, where half vectors turn half as fast.
+Material material(Pattern m) {
+  float specular = m.gloss * (m.exponent + 2.0) / (m.exponent + 8.0);
+  return phong_material(m.diffuse, vec3(specular), 0.25 * m.exponent);
+}

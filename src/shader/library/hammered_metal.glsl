@@ -24,3 +24,5 @@ vec3 shading_normal(Surface at, Parameters p) {
 vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
   return ggx_lobe(m.metal, m.roughness, to_light, to_viewer) * visible_cosine(to_light, to_viewer);
 }
+
+Material material(Pattern m) { return ggx_material(vec3(0.0), m.metal, m.roughness); }

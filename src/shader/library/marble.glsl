@@ -33,4 +33,4 @@ vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
   return phong_radiance(m.diffuse, m.specular, m.exponent, to_light, to_viewer);
 }
 
-Material material(Pattern m) { return Material(m.diffuse, m.specular, m.exponent, vec3(0.0)); }
+Material material(Pattern m) { return phong_material(m.diffuse, m.specular, m.exponent); }

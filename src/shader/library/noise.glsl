@@ -37,6 +37,9 @@ vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
 }
 
 Material material(Pattern m) {
-  float exponent = mix(phong_exponent_of_ggx(m.shape), m.shape, m.is_blue);
-  return Material(m.diffuse, m.specular, exponent, vec3(0.0));
+  Material exported = ggx_material(m.diffuse, m.specular, m.shape);
+  exported.exponent = m.shape;
+  exported.ggx = mix(1.0, 0.0, m.is_blue);
+  exported.grazing = exported.ggx;
+  return exported;
 }

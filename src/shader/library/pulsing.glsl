@@ -32,4 +32,4 @@ vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
 
 vec3 emission(Pattern m) { return m.emission; }
 
-Material material(Pattern m) { return Material(m.diffuse, m.specular, m.exponent, vec3(0.0)); }
+Material material(Pattern m) { return phong_material(m.diffuse, m.specular, m.exponent); }

@@ -26,3 +26,5 @@ vec3 shading_normal(Surface at, Parameters p) {
 vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
   return phong_radiance(m.diffuse, vec3(0.3), m.exponent, to_light, to_viewer);
 }
+
+Material material(Pattern m) { return phong_material(m.diffuse, vec3(0.3), m.exponent); }

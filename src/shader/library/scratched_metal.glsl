@@ -45,3 +45,13 @@ vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
   vec3 lobe = ggx_anisotropic_lobe(m.metal, m.roughness, along_groove(m, to_light), along_groove(m, to_viewer));
   return lobe * visible_cosine(to_light, to_viewer);
 }
+
+Material material(Pattern m) {
+  Material exported = ggx_material(vec3(0.0), m.metal, 1.0);
+  float along = m.roughness.x * m.roughness.x;
+  float across = m.roughness.y * m.roughness.y;
+  vec2 g = m.groove;
+  exported.roughness = vec3(along * g.x * g.x + across * g.y * g.y, (along - across) * g.x * g.y,
+                            along * g.y * g.y + across * g.x * g.x);
+  return exported;
+}

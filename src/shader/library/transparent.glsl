@@ -32,4 +32,8 @@ vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
 
 vec3 transmittance(Pattern m) { return m.transmittance; }
 
-Material material(Pattern m) { return Material(m.diffuse, m.specular, m.exponent, m.transmittance); }
+Material material(Pattern m) {
+  Material exported = phong_material(m.diffuse, m.specular, m.exponent);
+  exported.transmittance = m.transmittance;
+  return exported;
+}

@@ -15,4 +15,4 @@ vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
   return vec3(m.albedo * (1.0 / pi) * visible_cosine(to_light, to_viewer));
 }
 
-Material material(Pattern m) { return Material(vec3(m.albedo), vec3(0.0), 1.0, vec3(0.0)); }
+Material material(Pattern m) { return phong_material(vec3(m.albedo), vec3(0.0), 1.0); }

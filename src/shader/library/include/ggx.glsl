@@ -36,7 +36,8 @@ vec3 ggx_anisotropic_lobe(vec3 specular, vec2 alpha, vec3 to_light, vec3 to_view
   return (specular + (vec3(1.0) - specular) * fresnel) * (distribution * visibility);
 }
 
-// Exponent of the Phong lobe that is about as wide as GGX of roughness alpha.
-float phong_exponent_of_ggx(float alpha) { return 2.0 / (alpha * alpha) - 2.0; }
+Material ggx_material(vec3 diffuse, vec3 specular, float alpha) {
+  return Material(diffuse, specular, vec3(0.0), 1.0, 1.0, 1.0, vec3(alpha * alpha, 0.0, alpha * alpha));
+}
 
 #endif

@@ -18,4 +18,8 @@ vec3 phong_radiance(vec3 diffuse, vec3 specular, float exponent, vec3 to_light, 
   return reflectance * visible_cosine(to_light, to_viewer);
 }
 
+Material phong_material(vec3 diffuse, vec3 specular, float exponent) {
+  return Material(diffuse, specular, vec3(0.0), exponent, 0.0, 0.0, vec3(0.0));
+}
+
 #endif

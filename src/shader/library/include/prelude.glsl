@@ -13,12 +13,16 @@ struct Surface {
   float time;
 };
 
-// Phong parameters of a place, for pipelines that mip-map parameters instead of reflectance.
+// Parameters of a place, for pipelines that mip-map parameters instead of reflectance: a Lambert part and one lobe, which
+// is a Phong lobe (include/phong.glsl), a GGX one (include/ggx.glsl), or something of each.
 struct Material {
   vec3 diffuse;
   vec3 specular;
-  float exponent;
   vec3 transmittance;
+  float exponent;  // of the Phong lobe
+  float ggx;       // part of `specular` that is in the GGX lobe
+  float grazing;   // reflectance of the GGX lobe at grazing angles
+  vec3 roughness;  // squared roughness of the GGX lobe, as a matrix over the shading frame's x and y: xx, xy, yy
 };
 
 #endif

@@ -29,7 +29,7 @@ Material coating_material(Coating m) {
   float gloss = dot(m.gloss, vec3(1.0));
   float variance =
       (dull * (2.0 / (kDullExponent + 2.0)) + gloss * (2.0 / (kGlossExponent + 2.0)) + 1e-6) / (dull + gloss + 1e-5);
-  return Material(m.diffuse, m.dull + m.gloss, 2.0 / variance - 2.0, vec3(0.0));
+  return phong_material(m.diffuse, m.dull + m.gloss, 2.0 / variance - 2.0);
 }
 
 #endif
