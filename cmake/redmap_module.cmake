@@ -36,8 +36,10 @@ function(redmap_module NAME)
   target_link_libraries(redmap_${NAME} PRIVATE ${ARG_LIBRARIES})
 endfunction()
 
-# redmap_test(NAME modules...): every *_test.cpp of the current folder in one GoogleTest program.
+# redmap_test(NAME modules... [ENVIRONMENT NAME=VALUE...]): every *_test.cpp of the current folder in one GoogleTest
+# program, which ctest runs in that environment.
 function(redmap_test NAME)
+  cmake_parse_arguments(ARG "" "" "ENVIRONMENT" ${ARGN})
   file(GLOB SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(NOT SOURCES)
     return()
@@ -45,8 +47,9 @@ function(redmap_test NAME)
   add_executable(redmap_${NAME}_test ${SOURCES})
   target_include_directories(redmap_${NAME}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(redmap_${NAME}_test PRIVATE GTest::gtest_main)
-  foreach(MODULE ${ARGN})
+  foreach(MODULE ${ARG_UNPARSED_ARGUMENTS})
     target_link_libraries(redmap_${NAME}_test PRIVATE redmap_${MODULE})
   endforeach()
-  gtest_discover_tests(redmap_${NAME}_test TEST_PREFIX ${NAME}. DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(redmap_${NAME}_test TEST_PREFIX ${NAME}. DISCOVERY_TIMEOUT 60
+                       PROPERTIES ENVIRONMENT "${ARG_ENVIRONMENT}")
 endfunction()

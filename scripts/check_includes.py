@@ -12,6 +12,7 @@ from pathlib import Path
 # Folder of src -> the folders whose headers it may include, besides its own and whatever those may include.
 DIRECT = {
     "base": [],
+    "device": ["base"],
     "surface": ["base"],
     "shader": ["base"],
     "map": ["base"],
@@ -20,7 +21,7 @@ DIRECT = {
     "bake": ["surface", "analysis", "map"],
     "scene": ["surface", "shader", "map"],
     "render": ["scene"],
-    "gpu": ["scene", "bake"],
+    "gpu": ["device", "scene", "bake"],
 }
 SOURCES = {".h", ".cpp", ".in"}
 # The contents page of the library may include everything; nothing inside the library may include it.

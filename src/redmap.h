@@ -9,6 +9,9 @@
 #include "base/parallel.h"
 #include "base/vec.h"
 
+// Devices: Vulkan for compute.
+#include "device/device.h"
+
 // Surfaces: spheres, cylinders and triangle meshes with an atlas.
 #include "surface/atlas.h"
 #include "surface/mesh.h"

@@ -1,4 +1,5 @@
-// `redmap list`: the library's shaders, and what can be set on each. All of it is read from the shaders' own texts.
+// `redmap list`: the library's shaders, and what can be set on each, read from the shaders' own texts; and the devices
+// that shaders of the user's own can run on.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "base/error.h"
 #include "commands.h"
 #include "common.h"
+#include "device/device.h"
 #include "shader/shader.h"
 
 namespace redmap::cli {
@@ -16,7 +18,7 @@ namespace redmap::cli {
 namespace {
 
 struct Options {
-  std::string what = "shaders";  ///< "shaders", "parameters" or a shader's name
+  std::string what = "shaders";  ///< "shaders", "parameters", "devices" or a shader's name
   std::string shader;
   CommonOptions common;
 };
@@ -65,6 +67,21 @@ void list_parameters(const std::string& name, const CommonOptions& common) {
   write_json(common.json, to_json(shader));
 }
 
+void list_all_devices(const CommonOptions& common) {
+  nlohmann::json devices = nlohmann::json::array();
+  for (const DeviceInfo& device : list_devices()) {
+    fmt::print("{} {}: {}, {}, Vulkan {}\n", device.index, device.name, device.software ? "software" : "GPU",
+               device.driver, device.vulkan_version);
+    devices.push_back({{"index", device.index},
+                       {"name", device.name},
+                       {"driver", device.driver},
+                       {"vulkan", device.vulkan_version},
+                       {"software", device.software}});
+  }
+  if (devices.empty()) fmt::print("no device: no Vulkan driver is installed\n");
+  write_json(common.json, {{"devices", devices}});
+}
+
 void list(const Options& options) {
   const bool asks_for_shaders = options.what == "shaders", asks_for_parameters = options.what == "parameters";
   if (asks_for_parameters && options.shader.empty())
@@ -72,20 +89,22 @@ void list(const Options& options) {
   if (!asks_for_parameters && !options.shader.empty())
     throw Error("list {}: expected nothing after it, found \"{}\"", options.what, options.shader);
   if (asks_for_shaders) return list_shaders(options.common);
+  if (options.what == "devices") return list_all_devices(options.common);
   list_parameters(asks_for_parameters ? options.shader : options.what, options.common);
 }
 
 }  // namespace
 
 void add_list_command(CLI::App& app) {
-  CLI::App* sub = app.add_subcommand("list", "Show the library's shaders, or the parameters of one");
+  CLI::App* sub = app.add_subcommand("list", "Show the library's shaders, the parameters of one, or the devices");
   sub->footer(
       "Examples:\n"
       "  redmap list                   every shader, one line each\n"
       "  redmap list noise             its parameters: type, default, range, unit, meaning\n"
-      "  redmap list parameters noise  the same");
+      "  redmap list parameters noise  the same\n"
+      "  redmap list devices           what shaders of your own can run on");
   auto options = std::make_shared<Options>();
-  sub->add_option("what", options->what, "shaders (the default), parameters, or the name of a shader");
+  sub->add_option("what", options->what, "shaders (the default), parameters, devices, or the name of a shader");
   sub->add_option("shader", options->shader, "after `parameters`: whose");
   add_common_options(*sub, options->common);
   sub->callback([options] { list(*options); });

@@ -40,6 +40,8 @@ accepts "noise" list
 accepts "checker" list shaders
 accepts "[0.1, 1000]" list noise
 accepts "[0.1, 1000]" list parameters noise
+accepts "Vulkan 1." list devices
+VK_ICD_FILENAMES=/nowhere accepts "no device" list devices
 accepts "noise" list noise --json "$folder/noise.json"
 python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["name"] == "noise"' "$folder/noise.json" || failures=$((failures + 1))
 
@@ -54,6 +56,7 @@ refuses "see redmap list --help" list --nonsense
 refuses "noise" list nois
 refuses "expected the name of a shader" list parameters
 refuses "expected nothing after it" list noise marble
+refuses "expected nothing after it" list devices marble
 refuses "threads" list --threads many
 refuses "$folder/no/such/folder" list --json "$folder/no/such/folder/list.json"
 [ ! -e "$folder/no" ] || failures=$((failures + 1))

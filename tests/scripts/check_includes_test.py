@@ -39,6 +39,7 @@ class CheckIncludes(unittest.TestCase):
         self.assert_rejected("src/scene/scene.h", "bake/bake.h")
         self.assert_rejected("src/render/shade.cpp", "gpu/device.h")
         self.assert_rejected("src/gpu/device.cpp", "render/shade.h")
+        self.assert_rejected("src/device/device.cpp", "shader/shader.h")
         self.assert_rejected("src/metrics/flip.cpp", "scene/scene.h")
 
     def test_includes_from_outside_the_library_are_rejected(self):
