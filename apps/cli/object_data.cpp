@@ -29,8 +29,8 @@ std::vector<ObjectData> load_object_data(const Scene& scene, Method method) {
     if (method == Method::kPaper && object.surface->pose_fingerprint() != object.surface->fingerprint())
       throw Error("object '{}' is deformed (rest_mesh): method paper stores normals at rest, use another", object.name);
     if (method == Method::kPaper)
-      data[i].normals =
-          std::make_shared<const Pyramid<float>>(build_normal_pyramid(*object.surface, data[i].map->size));
+      data[i].normals = std::make_shared<const Pyramid<float>>(
+          build_normal_pyramid(*object.surface, *object.shader, data[i].map->size));
   }
   return data;
 }

@@ -1,9 +1,12 @@
 // redmap render: a scene to pictures, frame by frame, by any of the methods.
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 
 #include "base/atomic_file.h"
@@ -11,6 +14,7 @@
 #include "base/hash.h"
 #include "base/image.h"
 #include "base/parallel.h"
+#include "base/srgb.h"
 #include "commands.h"
 #include "common.h"
 #include "object_data.h"
@@ -28,7 +32,7 @@ constexpr std::uint64_t kRendererVersion = 2;
 struct RenderCommandOptions {
   CommonOptions common;
   std::string scene, output;
-  std::string method = "map", quality = "default", frames;
+  std::string method = "map", quality = "default", show = "picture", frames;
   int spp = 0;
   std::uint64_t seed = 0;
   bool force = false;
@@ -41,6 +45,7 @@ RenderOptions render_options(const RenderCommandOptions& options) {
   render.quality = options.quality == "fast" ? Quality::kFast : Quality::kDefault;
   render.spp = options.spp;
   render.seed = options.seed;
+  render.decisions = options.show == "decisions";
   render.cancelled = interrupted;
   return render;
 }
@@ -64,6 +69,7 @@ std::uint64_t settings_fingerprint(const RenderOptions& options, const Scene& sc
   std::uint64_t hash =
       hash64(kRendererVersion, static_cast<std::uint64_t>(options.method), static_cast<std::uint64_t>(options.quality));
   hash = hash64(hash, static_cast<std::uint64_t>(options.spp), options.seed);
+  if (options.decisions) hash = hash64(hash, 1);
   for (const Object& object : scene.objects) {
     hash = hash64(hash, static_cast<std::uint64_t>(object.map_size));
     if (options.method != Method::kMap && options.method != Method::kPaper) continue;
@@ -97,6 +103,26 @@ void remember_finished(const std::filesystem::path& picture, std::uint64_t finge
   }
 }
 
+using DecisionCounts = std::array<std::size_t, kDecisionCount>;
+
+/// The decisions of a frame as colours; adds its pixels to `counts`.
+Image painted(const RenderedFrame& frame, DecisionCounts& counts) {
+  for (Decision decision : frame.decisions) ++counts[static_cast<std::size_t>(decision)];
+  return paint_decisions(frame.decisions, frame.image.width, frame.image.height);
+}
+
+/// What the colours of `--show decisions` stand for, with the part of the pixels that each has.
+void print_legend(const DecisionCounts& pixels) {
+  const double total = static_cast<double>(std::accumulate(pixels.begin(), pixels.end(), std::size_t{0}));
+  if (total == 0) return;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto& [label, color] = decision_legend(static_cast<Decision>(i));
+    const auto byte = [](float linear) { return std::lround(255 * linear_to_srgb(linear)); };
+    fmt::print("  #{:02x}{:02x}{:02x} {:>5.1f} %  {}\n", byte(color.r), byte(color.g), byte(color.b),
+               100 * static_cast<double>(pixels[i]) / total, label);
+  }
+}
+
 nlohmann::json frame_json(int frame, const std::string& path, const RenderedFrame& rendered) {
   const double pixels = static_cast<double>(rendered.image.pixels());
   const auto per_pixel = [&](std::uint64_t count) { return static_cast<double>(count) / pixels; };
@@ -110,9 +136,9 @@ nlohmann::json frame_json(int frame, const std::string& path, const RenderedFram
           {"supersampled_pixels", rendered.counts.supersampled_pixels}};
 }
 
-void report_maps(const Scene& scene, const std::vector<ObjectData>& data) {
+void report_maps(const Scene& scene, Method method, const std::vector<ObjectData>& data) {
   for (std::size_t i = 0; i < data.size(); ++i)
-    if (data[i].map && data[i].map->verdict == MapVerdict::kDoesNotReduce)
+    if (is_supersampled(scene.objects[i], method, data[i]))
       fmt::print("object '{}' is supersampled: {}\n", scene.objects[i].name, data[i].map->verdict_reason);
 }
 
@@ -129,6 +155,7 @@ void run_render(const RenderCommandOptions& options) {
   nlohmann::json rows = nlohmann::json::array();
   std::size_t skipped = 0;
   double seconds = 0;
+  DecisionCounts decisions{};
   for (std::size_t i = 0; i < frames.size(); ++i) {
     stop_if_interrupted();
     const Scene scene = file.at(frames[i]);
@@ -140,7 +167,7 @@ void run_render(const RenderCommandOptions& options) {
     }
     if (!renderer) {
       const std::vector<ObjectData> data = load_object_data(scene, render.method);
-      report_maps(scene, data);
+      report_maps(scene, render.method, data);
       RenderOptions with_progress = render;
       with_progress.progress = [&progress, &frames, &i](double part) {
         progress->update((static_cast<double>(i) + part) / static_cast<double>(frames.size()));
@@ -149,7 +176,7 @@ void run_render(const RenderCommandOptions& options) {
     }
     const RenderedFrame rendered = renderer->render(scene, frames[i]);
     stop_if_interrupted();
-    write_image(rendered.image, path);
+    write_image(render.decisions ? painted(rendered, decisions) : rendered.image, path);
     remember_finished(path, fingerprint);
     rows.push_back(frame_json(frames[i], path, rendered));
     seconds += rendered.seconds;
@@ -158,6 +185,7 @@ void run_render(const RenderCommandOptions& options) {
   write_json(options.common.json, {{"method", options.method}, {"frames", rows}, {"skipped", skipped}});
   fmt::print("{} frame(s) by {} in {:.2f} s", rows.size(), options.method, seconds);
   fmt::print("{}\n", skipped ? fmt::format(", {} already finished", skipped) : "");
+  if (render.decisions) print_legend(decisions);
 }
 
 }  // namespace
@@ -175,6 +203,10 @@ void add_render_command(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--quality", options->quality, "Rays a pixel: default (2 x 2) or fast (1), more where needed")
       ->check(CLI::IsMember({"default", "fast"}))
+      ->capture_default_str();
+  sub->add_option("--show", options->show,
+                  "picture, or decisions: how the value of each pixel was found, one flat colour each")
+      ->check(CLI::IsMember({"picture", "decisions"}))
       ->capture_default_str();
   sub->add_option("--spp", options->spp, "Samples a pixel for supersample (16 if not given) and original")
       ->check(CLI::Range(1, 1 << 20));

@@ -231,7 +231,7 @@ std::vector<ObjectData> bake_data(const Surface& surface, const Shader& shader, 
     data.parameters = std::make_shared<const Pyramid<float>>(build_parameter_pyramid(surface, shader, map_size));
   if (shader.info().perturbs_normals)
     data.slopes = std::make_shared<const Pyramid<float>>(build_slope_pyramid(surface, shader, map_size));
-  data.normals = std::make_shared<const Pyramid<float>>(build_normal_pyramid(surface, map_size));
+  data.normals = std::make_shared<const Pyramid<float>>(build_normal_pyramid(surface, shader, map_size));
   return {data};
 }
 

@@ -6,6 +6,7 @@
 #include "bake/texel_grid.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "map/normal_moments.h"
 #include "map/slope_moments.h"
 
 namespace redmap {
@@ -28,6 +29,17 @@ Pyramid<float> build_averaged(const Surface& surface, int size, int channels, co
   average_texels(grid, std::vector<std::uint8_t>(grid.texels(), 1), 1, evaluate, nullptr, monitor, base);
   average_texels(grid, find_differing_texels(base, differ), kSubSamples, evaluate, nullptr, monitor, base);
   return Pyramid<float>(base);
+}
+
+Pyramid<float> build_normal_distributions(const Surface& surface, const Shader& shader, int size) {
+  std::vector<Planes<3>> slots(pipeline_slots());
+  const auto evaluate = [&](const SurfacePoints& points, std::span<const std::size_t>, std::size_t slot, float* out) {
+    shader.bind(points)->shading_normals(slots[slot]);
+    for (std::size_t i = 0; i < points.size(); ++i) normal_moments(slots[slot].get(i), out + i * NormalMoments::kCount);
+  };
+  return build_averaged(surface, size, NormalMoments::kCount, evaluate, [](const float* a, const float* b) {
+    return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])}) > kSlopeDifference;
+  });
 }
 
 }  // namespace
@@ -65,7 +77,8 @@ Pyramid<float> build_slope_pyramid(const Surface& surface, const Shader& shader,
   });
 }
 
-Pyramid<float> build_normal_pyramid(const Surface& surface, int size) {
+Pyramid<float> build_normal_pyramid(const Surface& surface, const Shader& shader, int size) {
+  if (shader.info().perturbs_normals) return build_normal_distributions(surface, shader, size);
   const auto evaluate = [](const SurfacePoints& points, std::span<const std::size_t>, std::size_t, float* out) {
     for (std::size_t i = 0; i < points.size(); ++i)
       for (int c = 0; c < 3; ++c) out[3 * i + c] = points.normal[c][i];

@@ -11,26 +11,6 @@ namespace {
 // Footprints, in texels along the major axis, over which the shader gives way to the map.
 constexpr float kBlendBegin = 0.5f, kBlendEnd = 1.0f;
 
-/// The hits of `batch` at `indices`.
-ShadingBatch select(const ShadingBatch& batch, std::span<const std::uint32_t> indices) {
-  const auto pick = [&](const auto& from, auto& to) {
-    to.reserve(indices.size());
-    for (std::uint32_t i : indices) to.push_back(from[i]);
-  };
-  ShadingBatch part;
-  part.time = batch.time;
-  pick(batch.hits, part.hits), pick(batch.turned, part.turned), pick(batch.frames, part.frames);
-  pick(batch.footprints, part.footprints), pick(batch.to_viewer, part.to_viewer);
-  part.lights.resize(batch.lights.size());
-  for (std::size_t light = 0; light < batch.lights.size(); ++light) {
-    pick(batch.lights[light].to_light, part.lights[light].to_light);
-    part.lights[light].irradiance.resize(indices.size());
-    for (std::size_t i = 0; i < indices.size(); ++i)
-      part.lights[light].irradiance.set(i, batch.lights[light].irradiance.get(indices[i]));
-  }
-  return part;
-}
-
 void blend_into(Planes<3>& out, std::size_t i, Vec3 value, float part) {
   out.set(i, part >= 1 ? value : out.get(i) * (1 - part) + value * part);
 }
@@ -56,6 +36,7 @@ void FilteredShading::shade(const ShadingBatch& batch, ShadedBatch& out, RenderC
     if (part[i] < 1) near_hits.push_back(i);
     if (part[i] > 0) far_hits.push_back(i);
   }
+  out.decisions.assign(batch.size(), Decision::kMeanNormal);
   if (near_hits.empty()) return shade_filtered(batch, out, counts);
   if (far_hits.empty()) return original_->shade(batch, out, counts);
 
@@ -63,12 +44,13 @@ void FilteredShading::shade(const ShadingBatch& batch, ShadedBatch& out, RenderC
   out.transmittance.resize(batch.size());
   ShadedBatch shaded;
   original_->shade(select(batch, near_hits), shaded, counts);
-  for (std::size_t i = 0; i < near_hits.size(); ++i) {
-    out.radiance.set(near_hits[i], shaded.radiance.get(i));
-    out.transmittance.set(near_hits[i], shaded.transmittance.get(i));
-  }
+  scatter(shaded, near_hits, out);
+  for (std::uint32_t i : near_hits) out.decisions[i] = part[i] > 0 ? Decision::kBlended : Decision::kOriginal;
+  shaded.decisions.assign(far_hits.size(), Decision::kMeanNormal);
   shade_filtered(select(batch, far_hits), shaded, counts);
   for (std::size_t i = 0; i < far_hits.size(); ++i) {
+    Decision& decision = out.decisions[far_hits[i]];
+    decision = std::max(decision, shaded.decisions[i]);
     blend_into(out.radiance, far_hits[i], shaded.radiance.get(i), part[far_hits[i]]);
     blend_into(out.transmittance, far_hits[i], shaded.transmittance.get(i), part[far_hits[i]]);
   }

@@ -23,8 +23,10 @@ class FilteredShading : public ObjectShading {
  protected:
   /// Part of the filtered value, 0 (the shader itself) to 1, by the sample's footprint.
   virtual float filtered_part(const Footprint& footprint) const;
+  /// `out.decisions` come as kMeanNormal, for as many hits.
   virtual void shade_filtered(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const = 0;
   virtual Rgb filtered_transmittance(const Footprint& footprint) const = 0;
+  const ObjectShading& original() const { return *original_; }
   Extent base_extent_;
 
  private:

@@ -27,6 +27,8 @@ std::unique_ptr<ObjectShading> make_shading(const Object& object, Method method,
   return make_shader_shading(object.shader);
 }
 
+bool uses_map(Method method) { return method == Method::kMap || method == Method::kPaper; }
+
 /// Throws Error unless `map` was baked for `object` as it is now.
 void require_map_of(const Object& object, const ReductionMap& map) {
   const auto refuse = [&](const std::string& what) {
@@ -46,10 +48,9 @@ void require_map_of(const Object& object, const ReductionMap& map) {
 
 /// Throws Error if something that the method needs is missing.
 void require_data(const Object& object, Method method, const ObjectData& data) {
-  const bool uses_map = method == Method::kMap || method == Method::kPaper;
-  if (uses_map && !data.map)
+  if (uses_map(method) && !data.map)
     throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
-  if (uses_map) require_map_of(object, *data.map);
+  if (uses_map(method)) require_map_of(object, *data.map);
   if (method == Method::kPaper && !data.normals) throw Error("object '{}' has no mean normals", object.name);
   if (method == Method::kParameters && object.shader->info().has_material && !data.parameters)
     throw Error("object '{}' has no averaged parameters", object.name);
@@ -77,6 +78,14 @@ std::vector<Tile> tiles_of(const Camera& camera, int size) {
 
 }  // namespace
 
+bool is_supersampled(const Object& object, Method method, const ObjectData& data) {
+  if (!uses_map(method) || data.map->verdict != MapVerdict::kDoesNotReduce) return false;
+  const ShaderInfo& shader = object.shader->info();
+  const bool for_normals_alone =
+      shader.perturbs_normals && !shader.varies_in_time && data.map->residual <= data.map->tolerance;
+  return method != Method::kPaper || !for_normals_alone;
+}
+
 Renderer::Renderer(const Scene& scene, const RenderOptions& options, const std::vector<ObjectData>& data)
     : options_(checked(options)), tracer_(scene) {
   if (data.size() != scene.objects.size())
@@ -84,9 +93,9 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, const std::
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     require_data(object, options_.method, data[i]);
-    const bool supersampled = data[i].map && (options_.method == Method::kMap || options_.method == Method::kPaper) &&
-                              data[i].map->verdict == MapVerdict::kDoesNotReduce;
+    const bool supersampled = is_supersampled(object, options_.method, data[i]);
     supersampled_.push_back(supersampled);
+    originals_.push_back(make_shader_shading(object.shader));
     shading_.push_back(supersampled ? make_shader_shading(object.shader)
                                     : make_shading(object, options_.method, data[i]));
     transmits_ |= object.shader->info().transmits;
@@ -102,13 +111,15 @@ RenderedFrame Renderer::render(const Scene& scene, int frame) {
   result.image = Image(scene.camera.width, scene.camera.height, 3);
   if (options_.classify) result.classes.resize(static_cast<std::size_t>(scene.camera.width) * scene.camera.height);
 
-  const FrameContext context{&scene, make_camera_rays(scene.camera), &tracer_, shading_, transmits_};
+  if (options_.decisions) result.decisions.resize(result.image.pixels());
+
+  const FrameContext context{&scene, make_camera_rays(scene.camera), &tracer_, shading_, originals_, transmits_};
   const TileJob job{&context,
                     &options_,
                     &supersampled_,
                     scene.camera.width,
                     hash64(options_.seed, static_cast<std::uint64_t>(frame)),
-                    result.image.data.data(),
+                    {result.image.data.data(), options_.decisions ? result.decisions.data() : nullptr},
                     options_.classify ? result.classes.data() : nullptr};
   const auto render_tile = options_.method == Method::kSupersample ? render_supersampled
                            : options_.method == Method::kPaper     ? render_paper

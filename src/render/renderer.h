@@ -36,6 +36,7 @@ struct RenderOptions {
   int spp = 0;  ///< supersample: samples, 0 means 16. original: a regular grid of a square number of samples, 0: the
                 ///< map's rays
   std::uint64_t seed = 0;
+  bool decisions = false;                ///< record how the value of each pixel was found
   bool classify = false;                 ///< supersample only: tell pixels apart by what their samples saw
   std::function<void(double)> progress;  ///< called now and then, from any thread, with the part done
   std::function<bool()> cancelled;       ///< polled between tiles
@@ -54,6 +55,7 @@ struct RenderedFrame {
   RenderCounts counts;
   double seconds = 0;
   std::vector<PixelClass> classes;  ///< row-major, if asked for
+  std::vector<Decision> decisions;  ///< likewise
 };
 
 /// What an object is shaded from, as far as the method needs it.
@@ -63,6 +65,10 @@ struct ObjectData {
   std::shared_ptr<const Pyramid<float>> normals;      ///< kPaper
   std::shared_ptr<const Pyramid<float>> slopes = {};  ///< kParameters, of shaders that perturb normals
 };
+
+/// Whether the object's map cannot stand in for its shader, which `method` therefore samples. Method paper brings its
+/// own normals, so that it takes shaders whose maps do not reduce for want of these alone.
+bool is_supersampled(const Object& object, Method method, const ObjectData& data);
 
 class Renderer {
  public:
@@ -76,7 +82,7 @@ class Renderer {
  private:
   RenderOptions options_;
   Tracer tracer_;
-  std::vector<std::unique_ptr<ObjectShading>> shading_;
+  std::vector<std::unique_ptr<ObjectShading>> shading_, originals_;
   std::vector<std::uint8_t> supersampled_;  ///< by object: its map does not reduce
   bool transmits_ = false;
 };

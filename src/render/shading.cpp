@@ -33,6 +33,32 @@ void add_lit(const float* weight, const Planes<3>& radiance, const Planes<3>& ir
   }
 }
 
+ShadingBatch select(const ShadingBatch& batch, std::span<const std::uint32_t> indices) {
+  const auto pick = [&](const auto& from, auto& to) {
+    to.reserve(indices.size());
+    for (std::uint32_t i : indices) to.push_back(from[i]);
+  };
+  ShadingBatch part;
+  part.time = batch.time, part.may_defer = batch.may_defer;
+  pick(batch.hits, part.hits), pick(batch.turned, part.turned), pick(batch.frames, part.frames);
+  pick(batch.footprints, part.footprints), pick(batch.to_viewer, part.to_viewer);
+  part.lights.resize(batch.lights.size());
+  for (std::size_t light = 0; light < batch.lights.size(); ++light) {
+    pick(batch.lights[light].to_light, part.lights[light].to_light);
+    part.lights[light].irradiance.resize(indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      part.lights[light].irradiance.set(i, batch.lights[light].irradiance.get(indices[i]));
+  }
+  return part;
+}
+
+void scatter(const ShadedBatch& from, std::span<const std::uint32_t> indices, ShadedBatch& to) {
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    to.radiance.set(indices[i], from.radiance.get(i));
+    to.transmittance.set(indices[i], from.transmittance.get(i));
+  }
+}
+
 namespace {
 
 /// Shaders see the surface at rest; `turned` (or nothing): hits whose normal looks the other way.
@@ -75,6 +101,7 @@ class ShaderShading : public ObjectShading {
       add_lit(nullptr, radiance, batch.lights[light].irradiance, out.radiance);
     }
     counts.shader_calls += batch.size() * batch.lights.size();
+    out.decisions.assign(batch.size(), Decision::kOriginal);
     if (shader_->info().transmits)
       patterns->transmittance(out.transmittance);
     else

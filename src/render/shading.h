@@ -9,6 +9,7 @@
 #include "map/footprint.h"
 #include "map/pyramid.h"
 #include "map/reduction_map.h"
+#include "render/decisions.h"
 #include "shader/shader.h"
 #include "surface/surface.h"
 
@@ -36,13 +37,15 @@ struct ShadingBatch {
   };
   std::vector<Light> lights;
   float time = 0;
+  bool may_defer = false;  ///< whether a hit may be left without a value, for its pixel to be supersampled
 
   std::size_t size() const { return hits.size(); }
 };
 
 struct ShadedBatch {
   Planes<3> radiance;
-  Planes<3> transmittance;  ///< of light from straight behind
+  Planes<3> transmittance;          ///< of light from straight behind
+  std::vector<Decision> decisions;  ///< one a hit; those supersampled have no value if they may be deferred
 };
 
 class ObjectShading {
@@ -72,11 +75,17 @@ std::unique_ptr<ObjectShading> make_parameters_shading(std::shared_ptr<const Sha
                                                        std::shared_ptr<const Pyramid<float>> parameters,
                                                        std::shared_ptr<const Pyramid<float>> slopes);
 
-/// The paper's section 5 to the letter, bump maps aside: trilinear lookup in the enclosing square, stored mean normal,
-/// blend by footprint area over one to two texels.
+/// The paper's section 5 to the letter: trilinear lookup in the enclosing square, stored mean normal, blend by
+/// footprint area over one to two texels. Where `normals` are distributions (bake/baselines.h), footprints that may see
+/// a highlight are supersampled (section 5.2).
 std::unique_ptr<ObjectShading> make_paper_shading(std::shared_ptr<const Shader> shader,
                                                   std::shared_ptr<const ReductionMap> map,
                                                   std::shared_ptr<const Pyramid<float>> normals);
+
+/// The hits of `batch` at `indices`.
+ShadingBatch select(const ShadingBatch& batch, std::span<const std::uint32_t> indices);
+/// Radiance and transmittance of those, back to where they came from.
+void scatter(const ShadedBatch& from, std::span<const std::uint32_t> indices, ShadedBatch& to);
 
 /// Directions of the hits `batch` towards light `light`, and to the viewer, in `frames`.
 DirectionPairs pairs_in_frames(const ShadingBatch& batch, std::size_t light, std::span<const Frame> frames);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/random.h"
 #include "render/renderer.h"
 #include "render/wavefront.h"
 
@@ -23,9 +24,12 @@ struct TileJob {
   const std::vector<std::uint8_t>* supersampled;  ///< by object
   int image_width;
   std::uint64_t frame_seed;
-  float* rgb;
+  PixelSums pixels;
   PixelClass* classes;  ///< null if not asked for
 };
+
+/// What the jittered samples of a pixel are drawn from.
+inline std::uint64_t jitter_seed(const TileJob& job, std::uint32_t pixel) { return hash64(pixel, job.frame_seed) | 1; }
 
 /// Jittered samples of the shader itself.
 RenderCounts render_supersampled(const TileJob& job, Tile tile);

@@ -166,6 +166,9 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
           for (int i = 0; i < n; ++i) reason = std::max(reason, reasons[sample(i, j)]);
       const int rays = refined_rays(reason, options.quality);
       counts.supersampled_pixels += reason == Refine::kSupersample;
+      if (job.pixels.decisions && rays > n)
+        job.pixels.decisions[static_cast<std::uint32_t>(y) * job.image_width + x] =
+            reason == Refine::kSupersample ? Decision::kSupersampled : Decision::kSubdivided;
       if (rays > n)
         append_pixel_samples(static_cast<std::uint32_t>(y) * job.image_width + x, job.image_width, rays, rays, 0,
                              refined.samples);
@@ -175,7 +178,7 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
     }
   trace_samples(*job.frame, refined, counts);
   append(refined, grid.traced, kept);
-  shade_samples(*job.frame, grid.traced, kept, job.rgb, counts);
+  shade_samples(*job.frame, grid.traced, kept, job.pixels, counts);
   return counts;
 }
 

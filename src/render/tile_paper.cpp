@@ -1,4 +1,5 @@
-// The paper's footprints (section 5.3): four corner rays, their enclosing square, subdivision where they disagree.
+// The paper's footprints (section 5.3): four corner rays, their enclosing square, subdivision where they disagree; and
+// its supersampling of highlights (5.2).
 #include <algorithm>
 #include <cmath>
 
@@ -63,6 +64,19 @@ Footprint enclosing_square(const CornerGrid& grid, const std::size_t (&corner)[4
   return {(lo + hi) * 0.5f, {side / aspect, 0}, {0, side}};
 }
 
+/// Section 5.2: where a highlight may hide in the normals under a pixel, "we used 16" samples of the shader itself.
+void supersample(const TileJob& job, std::span<const std::uint32_t> pixels, RenderCounts& counts) {
+  constexpr int kStrata = 4;
+  TracedSamples traced;
+  for (std::uint32_t pixel : pixels)
+    append_pixel_samples(pixel, job.image_width, kStrata, kStrata, jitter_seed(job, pixel), traced.samples);
+  FrameContext frame = *job.frame;
+  frame.shading = frame.originals;
+  trace_samples(frame, traced, counts);
+  shade_samples(frame, traced, job.pixels, counts);
+  counts.supersampled_pixels += pixels.size();
+}
+
 }  // namespace
 
 RenderCounts render_paper(const TileJob& job, Tile tile) {
@@ -70,7 +84,8 @@ RenderCounts render_paper(const TileJob& job, Tile tile) {
   const CornerGrid grid = trace_corners(job, tile, counts);
   TracedSamples whole, subdivided;
   std::vector<std::size_t> first_corner;  // of every sample of `whole`
-  const auto subdivide = [&](std::uint32_t pixel) {
+  const auto subdivide = [&](std::uint32_t pixel, Decision reason) {
+    if (job.pixels.decisions) job.pixels.decisions[pixel] = reason;
     append_pixel_samples(pixel, job.image_width, kSubdivision, kSubdivision, 0, subdivided.samples);
   };
   for (int y = tile.y0; y < tile.y1; ++y)
@@ -83,7 +98,7 @@ RenderCounts render_paper(const TileJob& job, Tile tile) {
       const bool reduces = object == kNoObject || !(*job.supersampled)[object];
       counts.supersampled_pixels += !reduces;
       if (!reduces || !corners_agree(grid, corner)) {
-        subdivide(pixel);
+        subdivide(pixel, reduces ? Decision::kSubdivided : Decision::kSupersampled);
         continue;
       }
       append_pixel_samples(pixel, job.image_width, 1, 1, 0, whole.samples);
@@ -104,11 +119,15 @@ RenderCounts render_paper(const TileJob& job, Tile tile) {
     if (agrees)
       agreed.push_back(k);
     else
-      subdivide(whole.samples[k].pixel);
+      subdivide(whole.samples[k].pixel, Decision::kSubdivided);
   }
-  shade_samples(*job.frame, whole, agreed, job.rgb, counts);
+  std::vector<std::uint32_t> deferred;
+  PixelSums pixels = job.pixels;
+  pixels.deferred = &deferred;
+  shade_samples(*job.frame, whole, agreed, pixels, counts);
   trace_samples(*job.frame, subdivided, counts);
-  shade_samples(*job.frame, subdivided, job.rgb, counts);
+  shade_samples(*job.frame, subdivided, job.pixels, counts);
+  supersample(job, deferred, counts);
   return counts;
 }
 

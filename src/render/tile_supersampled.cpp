@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
 #include "render/tile.h"
 
 namespace redmap {
@@ -43,7 +42,7 @@ RenderCounts render_supersampled(const TileJob& job, Tile tile) {
   std::vector<std::uint32_t> pixels;
   const auto flush = [&] {
     trace_samples(*job.frame, traced, counts);
-    shade_samples(*job.frame, traced, job.rgb, counts, job.classes ? &views : nullptr);
+    shade_samples(*job.frame, traced, job.pixels, counts, job.classes ? &views : nullptr);
     if (job.classes)
       for (std::size_t k = 0; k < pixels.size(); ++k)
         job.classes[pixels[k]] = classify(*job.frame, traced, views, k * spp, spp);
@@ -53,7 +52,7 @@ RenderCounts render_supersampled(const TileJob& job, Tile tile) {
     for (int x = tile.x0; x < tile.x1; ++x) {
       const std::uint32_t pixel = static_cast<std::uint32_t>(y) * job.image_width + x;
       // One sample a pixel is the aliased picture everybody knows: through the centre.
-      const std::uint64_t seed = spp == 1 ? 0 : hash64(pixel, job.frame_seed) | 1;
+      const std::uint64_t seed = spp == 1 ? 0 : jitter_seed(job, pixel);
       append_pixel_samples(pixel, job.image_width, strata.columns, strata.rows, seed, traced.samples);
       pixels.push_back(pixel);
       if (pixels.size() == pixels_together) flush();

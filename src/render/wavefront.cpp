@@ -166,11 +166,20 @@ void add_light(const CameraSample& sample, Rgb light, float* rgb) {
   pixel[2] += sample.weight * light.b;
 }
 
+/// False if the pixel was handed back, and the sample counts nothing.
+bool record_decision(std::uint32_t pixel, Decision decision, const PixelSums& pixels) {
+  if (pixels.decisions) pixels.decisions[pixel] = std::max(pixels.decisions[pixel], decision);
+  const bool deferred = pixels.deferred && decision == Decision::kSupersampled;
+  if (deferred) pixels.deferred->push_back(pixel);
+  return !deferred;
+}
+
 /// Shades paths on one object, and appends those that go on behind it to `onward`.
-void shade_object(const FrameContext& frame, const Paths& paths, float* rgb, RenderCounts& counts,
+void shade_object(const FrameContext& frame, const Paths& paths, const PixelSums& pixels, RenderCounts& counts,
                   std::vector<SampleView>* views, Layer& onward) {
   ShadingBatch batch;
   batch.time = frame.scene->time_seconds;
+  batch.may_defer = pixels.deferred && !paths.layer;
   const std::uint32_t object = paths.hit(0).object;
   place_hits(frame, paths, batch);
   if (frame.shading[object]->needs_footprints()) find_footprints(frame, paths, batch);
@@ -182,7 +191,9 @@ void shade_object(const FrameContext& frame, const Paths& paths, float* rgb, Ren
   ShadedBatch shaded;
   frame.shading[object]->shade(batch, shaded, counts);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    add_light(paths.traced.samples[paths.sample(i)], paths.throughput(i) * shaded.radiance.rgb(i), rgb);
+    const CameraSample& sample = paths.traced.samples[paths.sample(i)];
+    if (!paths.layer && !record_decision(sample.pixel, shaded.decisions[i], pixels)) continue;
+    add_light(sample, paths.throughput(i) * shaded.radiance.rgb(i), pixels.rgb);
     const Rgb throughput = paths.throughput(i) * shaded.transmittance.rgb(i);
     if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
     Ray ray = paths.ray(i);
@@ -195,18 +206,18 @@ void shade_object(const FrameContext& frame, const Paths& paths, float* rgb, Ren
 
 /// Shades what the paths `all` of one layer hit; what goes on lands in `onward`.
 void shade_layer(const FrameContext& frame, const TracedSamples& traced, const Layer* layer,
-                 std::span<const std::uint32_t> all, float* rgb, RenderCounts& counts, std::vector<SampleView>* views,
-                 Layer& onward) {
+                 std::span<const std::uint32_t> all, const PixelSums& pixels, RenderCounts& counts,
+                 std::vector<SampleView>* views, Layer& onward) {
   const std::size_t objects = frame.scene->objects.size();
   const ByObject sorted = sort_by_object(layer ? layer->hits : traced.hits, all, objects);
   const auto members = [&](std::size_t o) {
     return std::span(sorted.indices).subspan(sorted.starts[o], sorted.starts[o + 1] - sorted.starts[o]);
   };
   for (std::size_t o = 0; o < objects; ++o)
-    if (!members(o).empty()) shade_object(frame, {traced, layer, members(o)}, rgb, counts, views, onward);
+    if (!members(o).empty()) shade_object(frame, {traced, layer, members(o)}, pixels, counts, views, onward);
   const Paths missed{traced, layer, members(objects)};
   for (std::size_t i = 0; i < missed.size(); ++i)
-    add_light(traced.samples[missed.sample(i)], missed.throughput(i) * frame.scene->background, rgb);
+    add_light(traced.samples[missed.sample(i)], missed.throughput(i) * frame.scene->background, pixels.rgb);
 }
 
 /// Lets the rays that hit `object` through as far as it transmits, and on to what lies behind. False if none did.
@@ -250,22 +261,22 @@ void trace_samples(const FrameContext& frame, TracedSamples& traced, RenderCount
 }
 
 void shade_samples(const FrameContext& frame, const TracedSamples& traced, std::span<const std::uint32_t> members,
-                   float* rgb, RenderCounts& counts, std::vector<SampleView>* views) {
+                   const PixelSums& pixels, RenderCounts& counts, std::vector<SampleView>* views) {
   if (views) views->assign(traced.samples.size(), {});
   Layer layer, onward;
-  shade_layer(frame, traced, nullptr, members, rgb, counts, views, onward);
+  shade_layer(frame, traced, nullptr, members, pixels, counts, views, onward);
   for (int depth = 1; depth < kMaxLayers && !onward.rays.empty(); ++depth) {
     layer = std::exchange(onward, {});
     layer.hits.resize(layer.rays.size());
     frame.tracer->intersect(layer.rays, layer.hits);
     counts.camera_rays += layer.rays.size();
-    shade_layer(frame, traced, &layer, all_indices(layer.rays.size()), rgb, counts, views, onward);
+    shade_layer(frame, traced, &layer, all_indices(layer.rays.size()), pixels, counts, views, onward);
   }
 }
 
-void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
-                   std::vector<SampleView>* views) {
-  shade_samples(frame, traced, all_indices(traced.samples.size()), rgb, counts, views);
+void shade_samples(const FrameContext& frame, const TracedSamples& traced, const PixelSums& pixels,
+                   RenderCounts& counts, std::vector<SampleView>* views) {
+  shade_samples(frame, traced, all_indices(traced.samples.size()), pixels, counts, views);
 }
 
 std::vector<Rgb> transmittance_along(const FrameContext& frame, std::vector<Ray> rays, std::span<const float> widths,

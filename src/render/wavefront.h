@@ -16,8 +16,9 @@ struct FrameContext {
   const Scene* scene;
   CameraRays camera;
   const Tracer* tracer;
-  std::span<const std::unique_ptr<ObjectShading>> shading;  ///< one an object
-  bool transmits = false;                                   ///< whether any object lets light through
+  std::span<const std::unique_ptr<ObjectShading>> shading;    ///< one an object
+  std::span<const std::unique_ptr<ObjectShading>> originals;  ///< the shaders themselves, for pixels handed back
+  bool transmits = false;                                     ///< whether any object lets light through
 };
 
 /// Camera samples, their rays and first hits; one entry a sample. `footprints` is empty, or overrides the footprints
@@ -29,6 +30,13 @@ struct TracedSamples {
   std::vector<Footprint> footprints;
 
   void clear() { samples.clear(), rays.clear(), hits.clear(), footprints.clear(); }
+};
+
+/// Where light goes, and what else is recorded of pixels (row-major).
+struct PixelSums {
+  float* rgb;                     ///< three floats a pixel
+  Decision* decisions = nullptr;  ///< raised to the dearest decision of a first hit; null: not recorded
+  std::vector<std::uint32_t>* deferred = nullptr;  ///< pixels whose sample is to be replaced; null: none may be
 };
 
 /// What the first hit of a sample saw, for telling pixels apart.
@@ -43,13 +51,13 @@ Ray camera_ray(const CameraRays& camera, const CameraSample& sample);
 /// Shoots the rays of `traced.samples`.
 void trace_samples(const FrameContext& frame, TracedSamples& traced, RenderCounts& counts);
 
-/// Adds the light of the samples `members` (indices into `traced`) to `rgb` (three floats a pixel, row-major). `views`,
-/// if not null, receives one entry a sample of `traced`.
+/// Adds the light of the samples `members` (indices into `traced`) to `pixels`. `views`, if not null, receives one
+/// entry a sample of `traced`.
 void shade_samples(const FrameContext& frame, const TracedSamples& traced, std::span<const std::uint32_t> members,
-                   float* rgb, RenderCounts& counts, std::vector<SampleView>* views = nullptr);
+                   const PixelSums& pixels, RenderCounts& counts, std::vector<SampleView>* views = nullptr);
 /// The same for all samples.
-void shade_samples(const FrameContext& frame, const TracedSamples& traced, float* rgb, RenderCounts& counts,
-                   std::vector<SampleView>* views = nullptr);
+void shade_samples(const FrameContext& frame, const TracedSamples& traced, const PixelSums& pixels,
+                   RenderCounts& counts, std::vector<SampleView>* views = nullptr);
 
 /// Part of the light that passes along each ray, from `from` on; `widths` are the world-space widths of the beams.
 std::vector<Rgb> transmittance_along(const FrameContext& frame, std::vector<Ray> rays, std::span<const float> widths,

@@ -91,7 +91,7 @@ TEST(SlopePyramid, NeedsAShaderThatPerturbsNormals) {
 }
 
 TEST(NormalPyramid, HoldsTheSpheresNormals_AndTheirMeans) {
-  const Pyramid<float> pyramid = build_normal_pyramid(*make_sphere(2), 32);
+  const Pyramid<float> pyramid = build_normal_pyramid(*make_sphere(2), *make_library_shader("white"), 32);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 64; x += 5) {
       const float polar = (static_cast<float>(y) + 0.5f) * kPi / 32;

@@ -135,7 +135,8 @@ TEST(Renderer, MapOfTwoAlternatingBases_IsTheirMeanFarAway) {
 TEST(Renderer, WhiteMapByThePaper_IsWhite) {
   Scene scene = sphere_scene(make_library_shader("white"), {0, 0, 1}, 21);
   const auto map = alternating_map(scene.objects[0], kEast, kWest, 512);
-  const auto normals = std::make_shared<const Pyramid<float>>(build_normal_pyramid(*scene.objects[0].surface, 512));
+  const auto normals = std::make_shared<const Pyramid<float>>(
+      build_normal_pyramid(*scene.objects[0].surface, *scene.objects[0].shader, 512));
   const Image paper = render(scene, with(Method::kPaper), {map, nullptr, normals}).image;
   const Image original = render(scene, with(Method::kOriginal, Quality::kDefault, 1)).image;
   for (int y = 7; y < 14; ++y)
