@@ -15,8 +15,8 @@ Pyramid<float> build_parameter_pyramid(const Surface& surface, const Shader& sha
 /// sub-samples likewise. Throws Error if the shader does not perturb normals.
 Pyramid<float> build_slope_pyramid(const Surface& surface, const Shader& shader, int size);
 
-/// The paper's mip-mapped normals in object space: means (x, y, z; not unit vectors) of the interpolated ones, or of the
-/// shading normals together with their second moments (map/normal_moments.h) where the shader perturbs them.
+/// The paper's mip-mapped normals in object space: means (x, y, z; not unit vectors) of the interpolated ones, or of
+/// the shading normals together with their second moments (map/normal_moments.h) where the shader perturbs them.
 Pyramid<float> build_normal_pyramid(const Surface& surface, const Shader& shader, int size);
 
 }  // namespace redmap
