@@ -23,21 +23,24 @@ struct BenchAtlasOptions {
 };
 
 nlohmann::json row_json(const bench::AtlasRow& row) {
-  return {{"mesh", row.mesh},
-          {"triangles", row.triangles},
-          {"charts", row.atlas.charts},
-          {"l2_stretch", row.atlas.l2_stretch},
-          {"area_q05", row.area_q05},
-          {"area_q95", row.area_q95},
-          {"packing", row.atlas.packing},
-          {"flips", row.atlas.flips},
-          {"overlap_texels", row.overlap_texels},
-          {"seconds", row.seconds},
-          {"peak_bytes", row.peak_bytes},
-          {"far_error_by_level",
-           row.far ? nlohmann::json(std::vector<double>(row.far->by_level.begin(), row.far->by_level.end()))
-                   : nlohmann::json::array()},
-          {"seam_rmse_over_interior", row.far ? nlohmann::json(row.far->seam_over_interior) : nlohmann::json(nullptr)}};
+  return {
+      {"mesh", row.mesh},
+      {"triangles", row.triangles},
+      {"charts", row.atlas.charts},
+      {"l2_stretch", row.atlas.l2_stretch},
+      {"area_q05", row.area_q05},
+      {"area_q95", row.area_q95},
+      {"packing", row.atlas.packing},
+      {"flips", row.atlas.flips},
+      {"overlap_texels", row.overlap_texels},
+      {"seconds", row.seconds},
+      {"peak_bytes", row.peak_bytes},
+      {"far_error_by_level",
+       row.far ? nlohmann::json(std::vector<double>(row.far->by_level.begin(), row.far->by_level.end()))
+               : nlohmann::json::array()},
+      {"seam_rmse_over_interior", row.far ? nlohmann::json(row.far->seam_over_interior) : nlohmann::json(nullptr)},
+      {"seam_rmse_over_recut", row.far ? nlohmann::json(row.far->seam_over_recut) : nlohmann::json(nullptr)},
+      {"near_seam_rmse_over_recut", row.far ? nlohmann::json(row.far->near_seam_over_recut) : nlohmann::json(nullptr)}};
 }
 
 void print_row(const bench::AtlasRow& row) {
@@ -46,7 +49,8 @@ void print_row(const bench::AtlasRow& row) {
              row.atlas.flips, row.overlap_texels, row.seconds, static_cast<double>(row.peak_bytes) / 1e6);
   if (row.far) {
     for (const double error : row.far->by_level) fmt::print(" {:.3f}", error);
-    fmt::print("  {:.2f}", row.far->seam_over_interior);
+    fmt::print("  {:.2f} {:.2f} {:.2f}", row.far->seam_over_interior, row.far->seam_over_recut,
+               row.far->near_seam_over_recut);
   }
   fmt::print("\n");
 }
@@ -55,7 +59,7 @@ void run_bench_atlas(const BenchAtlasOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
   fmt::print("{:<24} {:>9} {:>6} {:>6} {:>5} {:>5} {:>6} {:>5} {:>7} {:>7} {:>7} {}\n", "mesh", "triangles", "charts",
              "l2", "a05", "a95", "% used", "flips", "overlap", "seconds", "MB",
-             options.far_errors ? "error at levels 1 to 9, seams / elsewhere" : "");
+             options.far_errors ? "error at levels 1 to 9, seams / elsewhere, / recut, / recut up to 3" : "");
   nlohmann::json json{{"machine", machine_json()}, {"rows", nlohmann::json::array()}};
   bool refused = false;
   for (const std::string& mesh : options.meshes) {

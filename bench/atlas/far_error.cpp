@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "bake/surface_cells.h"
@@ -10,6 +11,7 @@
 #include "base/random.h"
 #include "map/pyramid.h"
 #include "render/hit_footprint.h"
+#include "render/seam_lookup.h"
 #include "surface/mesh.h"
 
 namespace redmap::bench {
@@ -21,6 +23,9 @@ constexpr float kNoiseCells = 28;
 /// Footprints a level, half of them beside seams.
 constexpr std::size_t kFootprints = 400;
 constexpr float kSeamTexels = 2;
+
+/// Up to 8 texels wide: clusters have no say (cluster_part()).
+constexpr int kNearLevels = 3;
 
 /// Points under a footprint of a reference, about; triangles larger than the footprint get as many for their part of
 /// it.
@@ -39,113 +44,25 @@ float solid_noise(Vec3 p) {
   return sum;
 }
 
-class FarErrorMeasurement {
+/// Solid noise, and what it is on average under a footprint on the surface.
+class NoiseOnMesh {
  public:
-  FarErrorMeasurement(const Surface& surface, int size) : surface_(surface), mesh_(*surface.mesh()) {
+  explicit NoiseOnMesh(const Surface& surface) : surface_(surface), mesh_(*surface.mesh()) {
     const Vec3 extent = surface.upper() - surface.lower();
     frequency_ = kNoiseCells / std::max({extent.x, extent.y, extent.z});
-    bake(size);
-    const double texels = surface.uv_area() * weights_.extent(0).width * weights_.extent(0).height;
-    texel_ = static_cast<float>(std::sqrt(surface.area() / texels));
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) areas_.push_back(total_area_ += triangle_area(t));
   }
 
-  FarError run() const {
-    FarError result;
-    double seam = 0, interior = 0;
-    std::size_t seam_count = 0, interior_count = 0;
-    for (int level = 1; level <= kLevels; ++level) {
-      std::vector<Sample> samples(kFootprints);
-      parallel_for(kFootprints, [&](std::size_t i) { samples[i] = measure(level, i); });
-      double error = 0, power = 0;
-      for (const Sample& s : samples) {
-        const double squared = double(s.difference) * s.difference;
-        error += squared, power += double(s.reference) * s.reference;
-        (s.at_seam ? seam : interior) += squared;
-        ++(s.at_seam ? seam_count : interior_count);
-      }
-      result.by_level[level - 1] = std::sqrt(error / power);
-    }
-    if (seam_count > 0 && interior_count > 0)
-      result.seam_over_interior =
-          std::sqrt(seam / static_cast<double>(seam_count) / (interior / static_cast<double>(interior_count)));
-    return result;
-  }
+  float at(Vec3 position) const { return solid_noise((position - surface_.lower()) * frequency_); }
 
- private:
-  struct Sample {
-    float difference = 0, reference = 0;
-    bool at_seam = false;
-  };
-
-  float signal(Vec3 position) const { return solid_noise((position - surface_.lower()) * frequency_); }
-  Vec3 corner(std::size_t t, int k) const { return mesh_.positions[mesh_.triangles[t][k]]; }
-  Vec3 doubled_normal(std::size_t t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
-  double triangle_area(std::size_t t) const { return 0.5 * length(doubled_normal(t)); }
-
-  void bake(int size) {
-    const TexelGrid grid(surface_, size);
-    BaseLevel base(grid.extent(), 1, surface_.wraps_u());
-    BakeMonitor monitor(nullptr);
-    const std::vector<std::uint8_t> all(grid.texels(), 1);
-    average_texels(
-        grid, all, 4,
-        [&](const SurfacePoints& points, std::span<const std::size_t>, std::size_t, float* out) {
-          for (std::size_t i = 0; i < points.size(); ++i) out[i] = signal(points.position.get(i));
-        },
-        nullptr, monitor, base);
-    weights_ = WeightPyramid(base);
-    clusters_ = build_clusters(surface_, weights_);
-  }
-
-  /// Whether a texel within kSeamTexels is not covered whole.
-  bool is_at_seam(Vec2 uv) const {
-    const Extent extent = weights_.extent(0);
-    const float x = uv.x * static_cast<float>(extent.width), y = uv.y * static_cast<float>(extent.height);
-    for (int j = static_cast<int>(y - kSeamTexels); j <= static_cast<int>(y + kSeamTexels); ++j)
-      for (int i = static_cast<int>(x - kSeamTexels); i <= static_cast<int>(x + kSeamTexels); ++i)
-        if (weights_.coverage(0, std::clamp(i, 0, extent.width - 1), std::clamp(j, 0, extent.height - 1)) < 1)
-          return true;
-    return false;
-  }
-
-  /// A place evenly distributed over the surface: beside a seam for every other index, away from seams else.
-  SurfaceHit random_place(int level, std::size_t index, bool& at_seam) const {
-    Random random(hash64(static_cast<std::uint64_t>(level), index));
-    constexpr int kTries = 1000;
-    SurfaceHit hit;
-    for (int i = 0; i < kTries; ++i) {
-      const double area = total_area_ * random.next_float();
-      const std::size_t t = std::min<std::size_t>(std::upper_bound(areas_.begin(), areas_.end(), area) - areas_.begin(),
-                                                  areas_.size() - 1);
-      Vec2 where{random.next_float(), random.next_float()};
-      if (where.x + where.y > 1) where = {1 - where.x, 1 - where.y};
-      const HitCoordinates coordinates{static_cast<std::uint32_t>(t), where};
-      surface_.complete({&coordinates, 1}, {&hit, 1});
-      at_seam = is_at_seam(hit.uv);
-      if (at_seam == (index % 2 == 1)) break;
-    }
-    return hit;
-  }
-
-  Sample measure(int level, std::size_t index) const {
-    Sample sample;
-    const SurfaceHit hit = random_place(level, index, sample.at_seam);
-    const float width = texel_ * static_cast<float>(1 << level);
-    sample.reference = area_average(hit, width);
-    sample.difference = look_up(hit, width) - sample.reference;
-    return sample;
-  }
-
-  float look_up(const SurfaceHit& hit, float width) const {
-    const Frame frame = make_frame(hit.geometric_normal, hit.dp_du);
-    const Footprint footprint = round_footprint(hit, width);
-    float value = weights_.lookup(footprint).channel[0];
-    const float part = cluster_part(footprint, weights_.extent(0));
-    std::array<float, kMaxChannels> mean;
-    if (part > 0 && clusters_.lookup({hit.position, hit.normal, frame.x * width, frame.y * width}, mean))
-      value = value * (1 - part) + mean[0] * part;
-    return value;
+  /// A place evenly distributed over the surface.
+  HitCoordinates random_place(Random& random) const {
+    const double area = total_area_ * random.next_float();
+    const std::size_t t =
+        std::min<std::size_t>(std::upper_bound(areas_.begin(), areas_.end(), area) - areas_.begin(), areas_.size() - 1);
+    Vec2 where{random.next_float(), random.next_float()};
+    if (where.x + where.y > 1) where = {1 - where.x, 1 - where.y};
+    return {static_cast<std::uint32_t>(t), where};
   }
 
   float area_average(const SurfaceHit& hit, float width) const {
@@ -155,8 +72,13 @@ class FarErrorMeasurement {
       if (dot(doubled_normal(t), hit.normal) <= 0 || !reaches(t, frame, hit.position, width)) continue;
       add_triangle(t, frame, hit.position, width, sum, weight);
     }
-    return weight > 0 ? static_cast<float>(sum / weight) : signal(hit.position);
+    return weight > 0 ? static_cast<float>(sum / weight) : at(hit.position);
   }
+
+ private:
+  Vec3 corner(std::size_t t, int k) const { return mesh_.positions[mesh_.triangles[t][k]]; }
+  Vec3 doubled_normal(std::size_t t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
+  double triangle_area(std::size_t t) const { return 0.5 * length(doubled_normal(t)); }
 
   bool reaches(std::size_t t, const Frame& frame, Vec3 centre, float width) const {
     Vec3 low{1e30f, 1e30f, 1e30f}, high = -low;
@@ -181,21 +103,156 @@ class FarErrorMeasurement {
         if (u + v > 1) u = 1 - u, v = 1 - v;
         const Vec3 p = corner(t, 0) + e1 * u + e2 * v, local = frame.to_local(p - centre);
         if (std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) > width / 2) continue;
-        sum += area / (n * n) * signal(p), weight += area / (n * n);
+        sum += area / (n * n) * at(p), weight += area / (n * n);
       }
   }
 
   const Surface& surface_;
   const TriangleMesh& mesh_;
-  float frequency_ = 1, texel_ = 1;
+  float frequency_ = 1;
   double total_area_ = 0;
   std::vector<double> areas_;  ///< cumulated
+};
+
+/// Its map on one atlas.
+class NoiseMap {
+ public:
+  NoiseMap(const NoiseOnMesh& noise, const Surface& surface, int size) : surface_(surface) {
+    const TexelGrid grid(surface_, size);
+    BaseLevel base(grid.extent(), 1, surface_.wraps_u());
+    BakeMonitor monitor(nullptr);
+    const std::vector<std::uint8_t> all(grid.texels(), 1);
+    average_texels(
+        grid, all, 4,
+        [&](const SurfacePoints& points, std::span<const std::size_t>, std::size_t, float* out) {
+          for (std::size_t i = 0; i < points.size(); ++i) out[i] = noise.at(points.position.get(i));
+        },
+        nullptr, monitor, base);
+    weights_ = WeightPyramid(base);
+    clusters_ = build_clusters(surface_, weights_);
+  }
+
+  /// Width of a texel on the surface, on average.
+  float texel() const {
+    const Extent extent = weights_.extent(0);
+    return static_cast<float>(std::sqrt(surface_.area() / (surface_.uv_area() * extent.width * extent.height)));
+  }
+
+  SurfaceHit hit(const HitCoordinates& where) const {
+    SurfaceHit hit;
+    surface_.complete({&where, 1}, {&hit, 1});
+    return hit;
+  }
+
+  /// Whether a texel within kSeamTexels is not covered whole.
+  bool is_at_seam(Vec2 uv) const {
+    const Extent extent = weights_.extent(0);
+    const float x = uv.x * static_cast<float>(extent.width), y = uv.y * static_cast<float>(extent.height);
+    for (int j = static_cast<int>(y - kSeamTexels); j <= static_cast<int>(y + kSeamTexels); ++j)
+      for (int i = static_cast<int>(x - kSeamTexels); i <= static_cast<int>(x + kSeamTexels); ++i)
+        if (weights_.coverage(0, std::clamp(i, 0, extent.width - 1), std::clamp(j, 0, extent.height - 1)) < 1)
+          return true;
+    return false;
+  }
+
+  float look_up(const SurfaceHit& hit, float width) const {
+    const Frame frame = make_frame(hit.geometric_normal, hit.dp_du);
+    const Footprint footprint = round_footprint(hit, width);
+    std::uint64_t lookups = 0;
+    float value = mend_at_seams(weights_, *surface_.seams(), hit.chart, footprint, weights_.lookup(footprint), lookups)
+                      .channel[0];
+    const float part = cluster_part(footprint, weights_.extent(0));
+    std::array<float, kMaxChannels> mean;
+    if (part > 0 && clusters_.lookup({hit.position, hit.normal, frame.x * width, frame.y * width}, mean))
+      value = value * (1 - part) + mean[0] * part;
+    return value;
+  }
+
+ private:
+  const Surface& surface_;
   WeightPyramid weights_;
   SurfaceClusters clusters_;
 };
 
+/// Adds up squares.
+class SquareSum {
+ public:
+  void add(double value) { sum_ += value * value, ++count_; }
+  double rms() const { return count_ > 0 ? std::sqrt(sum_ / count_) : 0; }
+
+ private:
+  double sum_ = 0;
+  int count_ = 0;
+};
+
+/// Zero if there is nothing to compare with.
+double ratio(const SquareSum& a, const SquareSum& b) { return b.rms() > 0 ? a.rms() / b.rms() : 0; }
+
+struct Sample {
+  float difference = 0, reference = 0;
+  bool at_seam = false;
+  std::optional<float> difference_recut;  ///< beside seams: the same in the other atlas, where it is not beside one
+};
+
+class FarErrorMeasurement {
+ public:
+  FarErrorMeasurement(const Surface& surface, const Surface& recut, int size)
+      : noise_(surface), map_(noise_, surface, size), recut_map_(noise_, recut, size) {}
+
+  FarError run() const {
+    FarError result;
+    SquareSum seam, interior, paired_seam, paired_recut;
+    for (int level = 1; level <= kLevels; ++level) {
+      std::vector<Sample> samples(kFootprints);
+      parallel_for(kFootprints, [&](std::size_t i) { samples[i] = measure(level, i); });
+      SquareSum error, power;
+      for (const Sample& s : samples) {
+        error.add(s.difference), power.add(s.reference);
+        (s.at_seam ? seam : interior).add(s.difference);
+        if (s.difference_recut) paired_seam.add(s.difference), paired_recut.add(*s.difference_recut);
+      }
+      if (level == kNearLevels) result.near_seam_over_recut = ratio(paired_seam, paired_recut);
+      result.by_level[level - 1] = error.rms() / power.rms();
+    }
+    result.seam_over_interior = ratio(seam, interior);
+    result.seam_over_recut = ratio(paired_seam, paired_recut);
+    return result;
+  }
+
+ private:
+  /// Beside a seam for every other index, away from seams else, as far as there are such places.
+  HitCoordinates random_place(int level, std::size_t index) const {
+    Random random(hash64(static_cast<std::uint64_t>(level), index));
+    constexpr int kTries = 1000;
+    HitCoordinates where;
+    for (int i = 0; i < kTries; ++i) {
+      where = noise_.random_place(random);
+      if (map_.is_at_seam(map_.hit(where).uv) == (index % 2 == 1)) break;
+    }
+    return where;
+  }
+
+  Sample measure(int level, std::size_t index) const {
+    const HitCoordinates where = random_place(level, index);
+    const float width = map_.texel() * static_cast<float>(1 << level);
+    const SurfaceHit hit = map_.hit(where), recut_hit = recut_map_.hit(where);
+    Sample sample;
+    sample.at_seam = map_.is_at_seam(hit.uv);
+    sample.reference = noise_.area_average(hit, width);
+    sample.difference = map_.look_up(hit, width) - sample.reference;
+    if (sample.at_seam && !recut_map_.is_at_seam(recut_hit.uv))
+      sample.difference_recut = recut_map_.look_up(recut_hit, width) - sample.reference;
+    return sample;
+  }
+
+  NoiseOnMesh noise_;
+  NoiseMap map_, recut_map_;
+};
+
 }  // namespace
 
-FarError measure_far_error(const Surface& surface, int size) { return FarErrorMeasurement(surface, size).run(); }
+FarError measure_far_error(const Surface& surface, const Surface& recut, int size) {
+  return FarErrorMeasurement(surface, recut, size).run();
+}
 
 }  // namespace redmap::bench

@@ -19,7 +19,7 @@ std::unique_ptr<ObjectShading> make_shading(const Object& object, Method method,
     case Method::kPaper:
       return make_paper_shading(object.shader, data.map, data.normals);
     case Method::kMap:
-      return make_map_shading(object.shader, data.map);
+      return make_map_shading(object.shader, data.map, object.surface);
     case Method::kOriginal:
     case Method::kSupersample:
       break;

@@ -64,9 +64,10 @@ std::unique_ptr<ObjectShading> make_shader_shading(std::shared_ptr<const Shader>
 
 /// The object's reduction map, anisotropic and variance matched, blending into the shader itself over footprints whose
 /// major axis is .5 to 1 texel; under that it is the shader, bit for bit. The map has to be
-/// of this shader.
+/// of this shader on this surface.
 std::unique_ptr<ObjectShading> make_map_shading(std::shared_ptr<const Shader> shader,
-                                                std::shared_ptr<const ReductionMap> map);
+                                                std::shared_ptr<const ReductionMap> map,
+                                                std::shared_ptr<const Surface> surface);
 
 /// What production does today: mip-mapped averaged material parameters and slopes of shading normals (see
 /// bake/baselines.h), lobes widened by their variance and by the curvature in the footprint (Tokuyoshi and Kaplanyan

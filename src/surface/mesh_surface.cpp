@@ -7,6 +7,7 @@
 #include "surface/charts.h"
 #include "surface/hash_bytes.h"
 #include "surface/mesh.h"
+#include "surface/seams.h"
 #include "surface/uv_edge.h"
 #include "surface/uv_grid.h"
 
@@ -55,6 +56,9 @@ class MeshSurface final : public Surface {
   explicit MeshSurface(TriangleMesh mesh) : mesh_(std::move(mesh)), grid_(mesh_.uv, mesh_.uv_triangles) {
     measure();
     build_faces();
+    std::vector<std::uint32_t> charts;
+    for (const Face& face : faces_) charts.push_back(face.chart);
+    seams_.emplace(mesh_, charts);
   }
 
   Extent map_extent(int size) const override { return {size, size}; }
@@ -67,6 +71,7 @@ class MeshSurface final : public Surface {
   void complete(std::span<const HitCoordinates> hits, std::span<SurfaceHit> out) const override;
   std::optional<AnalyticHit> intersect(Vec3, Vec3, float, float) const override { return std::nullopt; }
   const TriangleMesh* mesh() const override { return &mesh_; }
+  const Seams* seams() const override { return &*seams_; }
   Vec3 lower() const override { return lower_; }
   Vec3 upper() const override { return upper_; }
   std::uint64_t fingerprint() const override { return fingerprint_; }
@@ -88,6 +93,7 @@ class MeshSurface final : public Surface {
   TriangleMesh mesh_;
   UvGrid grid_;
   std::vector<Face> faces_;
+  std::optional<Seams> seams_;
   double area_ = 0, uv_area_ = 0;
   Vec3 lower_, upper_;
   std::uint64_t fingerprint_ = 0;
@@ -250,11 +256,12 @@ class PosedMeshSurface final : public Surface {
     posed_.complete(hits, out);
     std::vector<SurfaceHit> at_rest(hits.size());
     rest_.complete(hits, at_rest);
-    for (std::size_t i = 0; i < hits.size(); ++i) out[i].rest = at_rest[i].rest;
+    for (std::size_t i = 0; i < hits.size(); ++i) out[i].rest = at_rest[i].rest, out[i].chart = at_rest[i].chart;
   }
   std::uint32_t chart(std::uint32_t triangle) const override { return rest_.chart(triangle); }
   std::optional<AnalyticHit> intersect(Vec3, Vec3, float, float) const override { return std::nullopt; }
   const TriangleMesh* mesh() const override { return posed_.mesh(); }
+  const Seams* seams() const override { return rest_.seams(); }
   Vec3 lower() const override { return posed_.lower(); }
   Vec3 upper() const override { return posed_.upper(); }
   std::uint64_t pose_fingerprint() const override { return hash64(rest_.fingerprint(), posed_.fingerprint()); }

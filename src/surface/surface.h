@@ -16,6 +16,7 @@
 namespace redmap {
 
 struct TriangleMesh;
+class Seams;
 
 /// Points found on the surface under some texels: point i lies under texel `texel[i]`, row-major within the region.
 /// Ordered by texel, then by sub-point.
@@ -78,6 +79,8 @@ class Surface {
   };
   virtual std::optional<AnalyticHit> intersect(Vec3 origin, Vec3 direction, float t_near, float t_far) const = 0;
   virtual const TriangleMesh* mesh() const { return nullptr; }
+  /// Meshes: where their charts end, and how the surface goes on.
+  virtual const Seams* seams() const { return nullptr; }
 
   /// Object-space bounds.
   virtual Vec3 lower() const = 0;
