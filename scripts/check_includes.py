@@ -17,9 +17,10 @@ DIRECT = {
     "shader": ["base"],
     "map": ["base"],
     "metrics": ["base"],
+    "user_shader": ["shader", "device"],
     "analysis": ["shader"],
     "bake": ["surface", "analysis", "map"],
-    "scene": ["surface", "shader", "map"],
+    "scene": ["surface", "user_shader", "map"],
     "render": ["scene"],
     "gpu": ["device", "scene", "bake"],
 }

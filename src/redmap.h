@@ -21,6 +21,9 @@
 #include "shader/parameters.h"
 #include "shader/shader.h"
 
+// Shaders of your own, from GLSL files.
+#include "user_shader/user_shader.h"
+
 // Reduction maps: what they hold, their files, and filtered lookups.
 #include "map/footprint.h"
 #include "map/map_file.h"

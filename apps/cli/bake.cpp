@@ -15,6 +15,7 @@
 #include "common.h"
 #include "map/map_file.h"
 #include "map_json.h"
+#include "scene/basis.h"
 #include "scene/scene_file.h"
 
 namespace redmap::cli {
@@ -22,7 +23,7 @@ namespace redmap::cli {
 namespace {
 
 struct Options {
-  std::string scene, folder, selection = "greedy";
+  std::string scene, folder, selection = "greedy", device;
   std::vector<std::string> objects, overrides;
   int size = 0;  ///< 0: as the scene says
   BakeOptions bake;
@@ -48,7 +49,7 @@ int map_size(const Options& options, const Object& object) { return options.size
 /// What keeps two objects from sharing a map; empty if nothing does.
 std::string_view difference(const Options& options, const Object& a, const Object& b) {
   if (a.surface->fingerprint() != b.surface->fingerprint()) return "surface";
-  if (a.shader->info().name != b.shader->info().name) return "shader";
+  if (a.shader->info().text_hash != b.shader->info().text_hash) return "shader";
   if (a.shader->parameters() != b.shader->parameters()) return "shader parameters";
   if (map_size(options, a) != map_size(options, b)) return "map_size";
   return "";
@@ -102,6 +103,7 @@ nlohmann::json bake_object(const Options& options, const Object& object) {
     };
     map = bake(*object.surface, *object.shader, bake_options, &report);
   }
+  map.shader_origin = origin_of(object.shader->info(), path.parent_path());
   make_folder(path.parent_path());
   write_map(path, map);
   nlohmann::json json = bake_json(map, report);
@@ -120,7 +122,7 @@ nlohmann::json bake_object(const Options& options, const Object& object) {
 
 void bake_scene(const Options& options) {
   const ThreadLimit limit(static_cast<std::size_t>(options.common.threads));
-  const SceneFile file = SceneFile::load(options.scene, options.overrides);
+  const SceneFile file = SceneFile::load(options.scene, options.overrides, options.device);
   print_remarks(file, options.common);
   nlohmann::json maps = nlohmann::json::array();
   for (const PlannedMap& planned : plan_maps(options, objects_to_bake(options, file))) {
@@ -156,6 +158,7 @@ void add_bake_command(CLI::App& app) {
       ->check(CLI::IsMember({"greedy", "paper"}))
       ->capture_default_str();
   add_override_option(*sub, options->overrides);
+  add_device_option(*sub, options->device);
   sub->add_option("-o,--output", options->folder, "folder for the maps");
   add_common_options(*sub, options->common);
   sub->callback([options] { bake_scene(*options); });

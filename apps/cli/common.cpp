@@ -43,6 +43,12 @@ void add_override_option(CLI::App& sub, std::vector<std::string>& overrides) {
       ->allow_extra_args(false);
 }
 
+void add_device_option(CLI::App& sub, std::string& device) {
+  sub.add_option("--device", device,
+                 "where shaders of your own run: the number of a device, or part of its name (redmap list devices)")
+      ->type_name("DEVICE");
+}
+
 Progress::Progress(std::string what)
     : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), next_write_(start_) {}
 

@@ -29,6 +29,9 @@ void add_common_options(CLI::App& sub, CommonOptions& options);
 /// and takes one argument each time, so that the scene's own name can follow.
 void add_override_option(CLI::App& sub, std::vector<std::string>& overrides);
 
+/// Declares --device: where shaders of the user's own run.
+void add_device_option(CLI::App& sub, std::string& device);
+
 /// One line on stderr, "what 42 % 1:03 left", only when stderr is a terminal, and cleared when it is destroyed.
 class Progress {
  public:

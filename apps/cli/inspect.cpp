@@ -32,7 +32,7 @@ constexpr Rgb kColours[] = {{0.08f, 0.20f, 0.40f}, {0.89f, 0.26f, 0.03f}, {0.09f
                             {0.33f, 0.18f, 0.12f}, {0.48f, 0.42f, 0.40f}};
 
 struct Options {
-  std::string map, pictures;
+  std::string map, pictures, device;
   CommonOptions common;
 };
 
@@ -106,7 +106,7 @@ Image sphere_picture(const BoundPatterns& patterns, std::size_t basis) {
   return picture;
 }
 
-void write_pictures(const ReductionMap& map, const std::filesystem::path& folder) {
+void write_pictures(const ReductionMap& map, const Shader& shader, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const auto write = [&](const Image& picture, const std::string& name) {
     stop_if_interrupted();
@@ -115,7 +115,7 @@ void write_pictures(const ReductionMap& map, const std::filesystem::path& folder
   };
   const int first = first_level(map.weights);
   write(coverage_picture(map.weights, first), "coverage.png");
-  const std::unique_ptr<BoundPatterns> patterns = bind_basis(*make_library_shader(map.shader, map.parameters), map);
+  const std::unique_ptr<BoundPatterns> patterns = bind_basis(shader, map);
   for (std::size_t b = 0; b < map.basis.size(); ++b) {
     write(sphere_picture(*patterns, b), fmt::format("basis{:02}.png", b));
     write(weight_picture(map.weights, first, static_cast<int>(b)), fmt::format("weight{:02}.png", b));
@@ -138,7 +138,7 @@ void inspect(const Options& options) {
   fmt::print("residual   {:.4f} of {:g}\n", map.residual, map.tolerance);
   fmt::print("verdict    {}{}{}\n", verdict_name(map.verdict), map.verdict_reason.empty() ? "" : ": ",
              map.verdict_reason);
-  if (!options.pictures.empty()) write_pictures(map, options.pictures);
+  if (!options.pictures.empty()) write_pictures(map, *shader_of(map, options.map, options.device), options.pictures);
   write_json(options.common.json, map_json(map));
 }
 
@@ -154,6 +154,7 @@ void add_inspect_command(CLI::App& app) {
   sub->add_option("map", options->map, "the map's file")->required();
   sub->add_option("--pictures", options->pictures,
                   "folder for pictures of the coverage, each basis, weight and level, from 4096 texels down");
+  add_device_option(*sub, options->device);
   add_common_options(*sub, options->common);
   sub->callback([options] { inspect(*options); });
 }

@@ -12,6 +12,7 @@
 #include "common.h"
 #include "device/device.h"
 #include "shader/shader.h"
+#include "user_shader/user_shader.h"
 
 namespace redmap::cli {
 
@@ -59,7 +60,7 @@ void list_shaders(const CommonOptions& common) {
 }
 
 void list_parameters(const std::string& name, const CommonOptions& common) {
-  const ShaderInfo& shader = library_shader_info(name);
+  const ShaderInfo shader = is_shader_file(name) ? user_shader_info(name, name) : library_shader_info(name);
   fmt::print("{}: {}\n", shader.name, shader.summary);
   for (const ParameterInfo& parameter : shader.parameters)
     fmt::print("  {:16} {:5} {:>14}  {:11} {:7} {}\n", parameter.name, parameter.type, numbers(parameter.default_value),
@@ -104,7 +105,8 @@ void add_list_command(CLI::App& app) {
       "  redmap list parameters noise  the same\n"
       "  redmap list devices           what shaders of your own can run on");
   auto options = std::make_shared<Options>();
-  sub->add_option("what", options->what, "shaders (the default), parameters, devices, or the name of a shader");
+  sub->add_option("what", options->what,
+                  "shaders (the default), parameters, devices, or the name of a shader or its file");
   sub->add_option("shader", options->shader, "after `parameters`: whose");
   add_common_options(*sub, options->common);
   sub->callback([options] { list(*options); });

@@ -31,7 +31,7 @@ constexpr std::uint64_t kRendererVersion = 2;
 
 struct RenderCommandOptions {
   CommonOptions common;
-  std::string scene, output;
+  std::string scene, output, device;
   std::string method = "map", quality = "default", show = "picture", frames;
   int spp = 0;
   std::uint64_t seed = 0;
@@ -144,7 +144,7 @@ void report_maps(const Scene& scene, Method method, const std::vector<ObjectData
 
 void run_render(const RenderCommandOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
-  const SceneFile file = SceneFile::load(options.scene, options.overrides);
+  const SceneFile file = SceneFile::load(options.scene, options.overrides, options.device);
   print_remarks(file, options.common);
   const std::vector<int> frames = frames_to_render(options, file);
   const RenderOptions render = render_options(options);
@@ -214,6 +214,7 @@ void add_render_command(CLI::App& app) {
   sub->add_option("--seed", options->seed, "Seed of the jitter")->capture_default_str();
   sub->add_flag("--force", options->force, "Render again what is already finished");
   add_override_option(*sub, options->overrides);
+  add_device_option(*sub, options->device);
   add_common_options(*sub, options->common);
   sub->footer(
       "Frames whose scene, map and settings have not changed since they were finished are skipped.\n"

@@ -6,7 +6,9 @@
 
 namespace redmap {
 
-/// Calls `body(i)` for every i in [0, count), in any order, on up to `thread_count()` threads. `body` must not throw.
+/// Calls `body(i)` for every i in [0, count), in any order, on up to `thread_count()` threads. `body` should not throw:
+/// what can be checked is checked before. Where it must, as when a shader of the user's own fails on its device, the
+/// loop is given up and the caller gets the exception, any one of them where there are several.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// Calls `produce(i)` in parallel and then `consume(i)` one at a time in the order of i; at most a few per thread are

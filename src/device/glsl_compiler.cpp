@@ -4,13 +4,16 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
-#include <algorithm>
 #include <cctype>
+#include <map>
 #include <regex>
+#include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 #include <sstream>
 
 #include "base/error.h"
+#include "device/loop_guard.h"
+#include "device/spirv_words.h"
 
 namespace redmap {
 namespace {
@@ -66,23 +69,27 @@ std::string first_error(const std::string& log, const std::string& text, std::sp
 /// Keeps glslang's tables for the whole process: making them takes 70 ms.
 void initialise_glslang() { [[maybe_unused]] static const bool done = glslang::InitializeProcess(); }
 
-/// Clamps every index, also those into private arrays, which no device checks.
-std::vector<std::uint32_t> with_clamped_indices(const std::vector<std::uint32_t>& spirv) {
-  spvtools::Optimizer optimizer(kEnvironment);
+/// Clamps every index, also those into private arrays, which no device checks, and validates the whole.
+std::vector<std::uint32_t> finished(const std::vector<std::uint32_t>& spirv) {
   std::string problem;
-  optimizer.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
+  const auto hear = [&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
     if (problem.empty()) problem = message;
-  });
+  };
+  spvtools::Optimizer optimizer(kEnvironment);
+  optimizer.SetMessageConsumer(hear);
   optimizer.RegisterPass(spvtools::CreateGraphicsRobustAccessPass());
+  spvtools::SpirvTools tools(kEnvironment);
+  tools.SetMessageConsumer(hear);
   std::vector<std::uint32_t> result;
-  if (!optimizer.Run(spirv.data(), spirv.size(), &result))
-    throw Error("expected a shader that SPIR-V Tools accept, found: {}", problem);
+  if (!optimizer.Run(spirv.data(), spirv.size(), &result) || !tools.Validate(result))
+    throw Error("expected a shader that Vulkan takes, found: {}", problem);
   return result;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names) {
+std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names,
+                                        const std::string& loop_guard) {
   initialise_glslang();
   glslang::TShader shader(EShLangCompute);
   const char* strings = text.c_str();
@@ -99,7 +106,22 @@ std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const
   glslang::SpvOptions options;
   options.disableOptimizer = true;  // drivers optimise
   glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv, &options);
-  return with_clamped_indices(spirv);
+  return finished(loop_guard.empty() ? spirv : guard_loops(spirv, loop_guard));
+}
+
+std::size_t array_stride(std::span<const std::uint32_t> spirv, const std::string& name) {
+  // Names and decorations come before the types that they belong to.
+  std::uint32_t block = 0;
+  std::map<std::uint32_t, std::size_t> strides;
+  std::size_t stride = 0;
+  for_each_instruction(spirv, [&](std::span<const std::uint32_t> i) {
+    const spv::Op op = operation(i);
+    if (op == spv::OpName && reinterpret_cast<const char*>(&i[2]) == name) block = i[1];
+    if (op == spv::OpDecorate && i[2] == spv::DecorationArrayStride) strides[i[1]] = i[3];
+    if (op == spv::OpTypeStruct && i[1] == block && i.size() == 3) stride = strides[i[2]];
+  });
+  if (stride == 0) throw Error("expected a buffer block {} of one array, found none", name);
+  return stride;
 }
 
 }  // namespace redmap

@@ -1,6 +1,7 @@
 // GLSL 4.50 to SPIR-V, by glslang, for compute on Vulkan 1.1 devices.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -9,8 +10,14 @@
 namespace redmap {
 
 /// Compiles a complete compute shader. A line `#line N I` in `text` says that line N of source I follows;
-/// `source_names[I]` is what errors call it. Indices into arrays are clamped to their bounds. Throws Error
-/// "NAME:LINE:COLUMN: what is wrong" for the first mistake.
-std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names);
+/// `source_names[I]` is what errors call it. Indices into arrays are clamped to their bounds. `loop_guard`, if given,
+/// names a function `bool NAME()` of the text that every loop asks before each round, and that ends it by saying false.
+/// Throws Error "NAME:LINE:COLUMN: what is wrong" for the first mistake.
+std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names,
+                                        const std::string& loop_guard = "");
+
+/// Bytes from one element to the next of the array that is the only member of the buffer block `name`. Throws Error
+/// where there is none.
+std::size_t array_stride(std::span<const std::uint32_t> spirv, const std::string& name);
 
 }  // namespace redmap

@@ -97,6 +97,28 @@ MapVerdict parse_verdict(const Reader& reader) {
   reader.refuse("verdict", "reduces, one-material or does-not-reduce");
 }
 
+Json describe_origin(const ShaderOrigin& origin) {
+  Json images = Json::object();
+  for (const auto& [name, image] : origin.images) images[name] = {{"file", image.path}, {"is_data", image.is_data}};
+  return {{"file", origin.file}, {"images", images}};
+}
+
+ShaderOrigin parse_origin(const Json& root, const std::string& where) {
+  ShaderOrigin origin;
+  if (!root.contains("shader_origin")) return origin;
+  const Reader reader(root["shader_origin"], where + ": shader_origin");
+  origin.file = reader.text("file");
+  const Json& images = reader.get("images", "an object");
+  const Reader image_reader(images, where + ": shader_origin: images");
+  for (const auto& [name, image] : images.items()) {
+    const Reader entry(image, where + ": shader_origin: images: " + name);
+    const Json& is_data = entry.get("is_data", "true or false");
+    if (!is_data.is_boolean()) entry.refuse("is_data", "true or false");
+    origin.images[name] = {entry.text("file"), is_data.get<bool>()};
+  }
+  return origin;
+}
+
 }  // namespace
 
 std::string_view verdict_name(MapVerdict verdict) {
@@ -120,19 +142,20 @@ std::string describe_map(const ReductionMap& map) {
                      {"uv", {p.uv.x, p.uv.y}}});
   Json parameters = Json::object();
   for (const auto& [name, value] : map.parameters) parameters[name] = value;
-  const Json description{{"format_version", kMapFormatVersion},
-                         {"shader", map.shader},
-                         {"shader_hash", hexadecimal(map.shader_hash)},
-                         {"parameters", parameters},
-                         {"surface", hexadecimal(map.surface_fingerprint)},
-                         {"size", map.size},
-                         {"tolerance", map.tolerance},
-                         {"residual", map.residual},
-                         {"verdict", verdict_name(map.verdict)},
-                         {"verdict_reason", map.verdict_reason},
-                         {"wraps_u", map.weights.wraps_u()},
-                         {"scales", std::vector<float>(map.weights.scales().begin(), map.weights.scales().end())},
-                         {"basis", basis}};
+  Json description{{"format_version", kMapFormatVersion},
+                   {"shader", map.shader},
+                   {"shader_hash", hexadecimal(map.shader_hash)},
+                   {"parameters", parameters},
+                   {"surface", hexadecimal(map.surface_fingerprint)},
+                   {"size", map.size},
+                   {"tolerance", map.tolerance},
+                   {"residual", map.residual},
+                   {"verdict", verdict_name(map.verdict)},
+                   {"verdict_reason", map.verdict_reason},
+                   {"wraps_u", map.weights.wraps_u()},
+                   {"scales", std::vector<float>(map.weights.scales().begin(), map.weights.scales().end())},
+                   {"basis", basis}};
+  if (!map.shader_origin.file.empty()) description["shader_origin"] = describe_origin(map.shader_origin);
   return description.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -148,6 +171,7 @@ MapDescription parse_map_description(std::string_view json, const std::string& w
   MapDescription description;
   ReductionMap& map = description.map;
   map.shader = reader.text("shader");
+  map.shader_origin = parse_origin(root, where);
   map.shader_hash = parse_hash(reader, "shader_hash");
   const Json& parameters = reader.get("parameters", "an object");
   const Reader values(parameters, where + ": parameters");

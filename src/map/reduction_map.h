@@ -30,8 +30,19 @@ enum class MapVerdict {
   kDoesNotReduce  ///< it does not: render by supersampling
 };
 
+/// A shader of the user's own, so that it can be found again; paths are relative to the map's folder.
+struct ShaderOrigin {
+  struct ImageFile {
+    std::string path;
+    bool is_data = false;  ///< numbers, not colours
+  };
+  std::string file;  ///< empty: a shader of the library
+  std::map<std::string, ImageFile> images;
+};
+
 struct ReductionMap {
   std::string shader;
+  ShaderOrigin shader_origin;
   std::uint64_t shader_hash = 0;  ///< ShaderInfo::text_hash: the version of the shader that was baked
   std::map<std::string, std::vector<float>> parameters;  ///< all of them, by name
   std::uint64_t surface_fingerprint = 0;

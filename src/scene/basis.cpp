@@ -2,7 +2,35 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+#include "user_shader/user_shader.h"
+
 namespace redmap {
+
+std::shared_ptr<const Shader> shader_of(const ReductionMap& map, const std::filesystem::path& path,
+                                        const std::string& device) {
+  if (map.shader_origin.file.empty()) return make_library_shader(map.shader, map.parameters);
+  const std::filesystem::path folder = path.parent_path();
+  UserShaderSettings settings{map.parameters, {}, device};
+  for (const auto& [name, image] : map.shader_origin.images)
+    settings.images[name] = {folder / image.path, image.is_data};
+  auto shader = make_user_shader(folder / map.shader_origin.file, map.shader, settings);
+  if (shader->info().text_hash == map.shader_hash) return shader;
+  throw Error("{}: expected shader \"{}\" as it was when the map was baked, found another version: bake it again",
+              path.string(), map.shader);
+}
+
+ShaderOrigin origin_of(const ShaderInfo& shader, const std::filesystem::path& map_folder) {
+  ShaderOrigin origin;
+  if (shader.file.empty()) return origin;
+  const auto from_map = [&](const std::filesystem::path& file) {
+    return std::filesystem::proximate(std::filesystem::absolute(file), std::filesystem::absolute(map_folder))
+        .generic_string();
+  };
+  origin.file = from_map(shader.file);
+  for (const ShaderImageInfo& image : shader.images) origin.images[image.name] = {from_map(image.file), image.is_data};
+  return origin;
+}
 
 std::unique_ptr<BoundPatterns> bind_basis(const Shader& shader, const ReductionMap& map) {
   SurfacePoints points;

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "shader/shader.h"
+#include "user_shader/user_shader.h"
 
 namespace redmap {
 
@@ -42,8 +43,42 @@ decltype(auto) at_key(const TableReader& reader, std::string_view key, Make&& ma
   }
 }
 
-std::shared_ptr<const Shader> read_shader(const TableReader& object) {
+/// `wood = "wood.png"` or `bumps = { file = "bumps.png", data = true }` in [object.NAME.images].
+std::map<std::string, ShaderImage> read_images(const TableReader& object, const std::filesystem::path& scene_folder) {
+  std::map<std::string, ShaderImage> images;
+  if (!object.has("images")) return images;
+  const toml::table& table = object.table("images");
+  const TableReader reader(table, object.full_key("images"));
+  for (const std::string& key : reader.keys()) {
+    ShaderImage image;
+    if (table.get(key)->is_table()) {
+      const TableReader entry(*table.get(key)->as_table(), reader.full_key(key), {"file", "data"});
+      image = {scene_folder / entry.text("file"), entry.boolean("data", false)};
+    } else {
+      image.file = scene_folder / reader.text(key);
+    }
+    if (!std::filesystem::is_regular_file(image.file))
+      reader.complain(key, fmt::format("expected a picture, found no file {}", image.file.lexically_normal().string()));
+    images[key] = image;
+  }
+  return images;
+}
+
+std::shared_ptr<const Shader> read_shader_file(const TableReader& object, const std::filesystem::path& scene_folder,
+                                               const std::string& device) {
   const std::string name = object.text("shader");
+  const std::filesystem::path file = scene_folder / name;
+  const ShaderInfo info = at_key(object, "shader", [&] { return user_shader_info(file, name); });
+  const UserShaderSettings settings{read_parameters(object, info), read_images(object, scene_folder), device};
+  return at_key(object, "shader", [&] { return make_user_shader(file, name, settings); });
+}
+
+std::shared_ptr<const Shader> read_shader(const TableReader& object, const std::filesystem::path& scene_folder,
+                                          const std::string& device) {
+  const std::string name = object.text("shader");
+  if (is_shader_file(name)) return read_shader_file(object, scene_folder, device);
+  if (object.has("images"))
+    object.complain("images", "expected only for a shader of your own, found it for a library one");
   const ShaderInfo* info = at_key(object, "shader", [&] { return &library_shader_info(name); });
   const ParameterOverrides parameters = read_parameters(object, *info);
   return at_key(object, "parameters", [&] { return make_library_shader(name, parameters); });
@@ -116,13 +151,13 @@ std::vector<LoadedMesh::Tile> ObjectReader::read_surfaces(const TableReader& rea
 std::vector<Object> ObjectReader::read(const std::string& name, const toml::table& table) {
   const TableReader reader(table, "object." + name,
                            {"surface", "radius", "height", "mesh", "rest_mesh", "part", "up", "unit", "uv", "uv_set",
-                            "shader", "parameters", "map", "map_size", "translate", "rotate", "scale"});
+                            "shader", "parameters", "images", "map", "map_size", "translate", "rotate", "scale"});
   Object object;
   object.name = object.declared_name = name;
   object.transform = read_transform(reader);
   object.map_size = reader.integer("map_size", 1024, 1, kMaxMapSize);
   object.map_path = scene_folder_ / (reader.has("map") ? reader.text("map") : "maps/" + name + ".exr");
-  object.shader = read_shader(reader);
+  object.shader = read_shader(reader, scene_folder_, device_);
   std::vector<Object> objects;
   for (const LoadedMesh::Tile& tile : read_surfaces(reader)) {
     objects.push_back(object);

@@ -15,8 +15,10 @@ namespace redmap {
 /// Reads objects, loading every mesh once however many objects share it.
 class ObjectReader {
  public:
-  /// `scene_folder`: what paths in the file are relative to, and the parent of the maps.
-  explicit ObjectReader(std::filesystem::path scene_folder) : scene_folder_(std::move(scene_folder)) {}
+  /// `scene_folder`: what paths in the file are relative to, and the parent of the maps. `device`: where shaders of the
+  /// user's own run.
+  ObjectReader(std::filesystem::path scene_folder, std::string device)
+      : scene_folder_(std::move(scene_folder)), device_(std::move(device)) {}
 
   /// Reads the table [object.NAME]: one object, or one for each tile of a mesh whose uv spread over several. Throws
   /// Error.
@@ -31,6 +33,7 @@ class ObjectReader {
   std::vector<LoadedMesh::Tile> read_mesh_surfaces(const TableReader& reader);
 
   std::filesystem::path scene_folder_;
+  std::string device_;
   std::vector<std::pair<MeshRequest, std::vector<LoadedMesh::Tile>>> meshes_;
   std::vector<std::string> remarks_, assumptions_;
 };

@@ -79,8 +79,8 @@ std::vector<Light> read_lights(const TableReader& file, const std::vector<Light>
   return lights;
 }
 
-Scene read_scene(const toml::table& file, const std::filesystem::path& path, std::vector<std::string>& remarks,
-                 std::vector<std::string>& assumptions) {
+Scene read_scene(const toml::table& file, const std::filesystem::path& path, const std::string& device,
+                 std::vector<std::string>& remarks, std::vector<std::string>& assumptions) {
   const TableReader reader(file, "", {"background", "import", "camera", "light", "object", "animation"});
   const GltfImport import = read_import(reader, path.parent_path());
   if (!reader.has("camera") && !import.camera) throw Error("{}: expected a [camera] table, found none", path.string());
@@ -89,7 +89,7 @@ Scene read_scene(const toml::table& file, const std::filesystem::path& path, std
   scene.camera = reader.has("camera") ? read_camera(reader.table("camera"), import.camera) : *import.camera;
   scene.lights = read_lights(reader, import.lights);
   if (reader.has("object")) {
-    ObjectReader object_reader(path.parent_path());
+    ObjectReader object_reader(path.parent_path(), device);
     const TableReader objects(reader.table("object"), "object");
     for (const std::string& name : objects.keys())
       for (Object& object : object_reader.read(name, objects.table(name))) scene.objects.push_back(std::move(object));
@@ -116,12 +116,13 @@ void check_moment(const Scene& scene, const std::filesystem::path& path, int fra
 
 }  // namespace
 
-SceneFile SceneFile::load(const std::filesystem::path& path, std::span<const std::string> overrides) {
+SceneFile SceneFile::load(const std::filesystem::path& path, std::span<const std::string> overrides,
+                          const std::string& device) {
   toml::table file = parse_toml(read_text(path), path.string());
   apply_overrides(file, overrides);
   SceneFile scene;
   scene.path_ = path;
-  scene.rest_ = read_scene(file, path, scene.remarks_, scene.assumptions_);
+  scene.rest_ = read_scene(file, path, device, scene.remarks_, scene.assumptions_);
   if (file.contains("animation"))
     scene.animation_ = read_animation(TableReader(file, "").table("animation"), scene.rest_);
   for (int frame = 1; frame <= scene.frame_count(); ++frame)

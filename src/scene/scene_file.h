@@ -16,8 +16,9 @@ class SceneFile {
   /// Reads `path` with everything it names: meshes (each once; those without uv are unwrapped, remembered in maps/
   /// beside the scene), shaders, and glTF to take cameras and lights from. `overrides` are "object.parameter=value" as
   /// in overrides.h. Every frame has been checked when this returns. Throws Error naming file, line, column, key, what
-  /// was expected and what was found.
-  static SceneFile load(const std::filesystem::path& path, std::span<const std::string> overrides = {});
+  /// was expected and what was found. `device` is where shaders of the user's own run, as in Device::open().
+  static SceneFile load(const std::filesystem::path& path, std::span<const std::string> overrides = {},
+                        const std::string& device = "");
 
   const std::filesystem::path& path() const { return path_; }
   /// Frames are 1 to frame_count(); 1 for a still scene.

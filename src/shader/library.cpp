@@ -20,10 +20,8 @@ const library::LibraryEntry& find_entry(std::string_view name) {
 }
 
 std::string read_include(std::string_view name) {
-  const auto includes = library::includes();
-  const auto found = std::ranges::find(includes, name, &library::LibraryInclude::name);
-  if (found == includes.end()) throw Error("shader include '{}' is not in the library", name);
-  return std::string(found->text);
+  if (const std::optional<std::string> text = library_include(name)) return *text;
+  throw Error("shader include '{}' is not in the library", name);
 }
 
 std::map<std::string, ShaderInfo, std::less<>> read_infos() {
@@ -54,6 +52,18 @@ std::shared_ptr<const Shader> make_library_shader(std::string_view name, const P
   const library::LibraryEntry& entry = find_entry(name);
   const ShaderInfo& info = library_shader_info(name);
   return entry.make(info, parameter_values(info, overrides));
+}
+
+std::optional<std::string> library_include(std::string_view name) {
+  const auto includes = library::includes();
+  const auto found = std::ranges::find(includes, name, &library::LibraryInclude::name);
+  return found == includes.end() ? std::nullopt : std::optional(std::string(found->text));
+}
+
+std::vector<std::string> library_include_names() {
+  std::vector<std::string> names;
+  for (const library::LibraryInclude& include : library::includes()) names.emplace_back(include.name);
+  return names;
 }
 
 std::string library_shader_text(std::string_view name) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -63,20 +64,30 @@ class BoundPatterns {
   virtual bool shading_normals([[maybe_unused]] Planes<3>& out) const { return false; }
 };
 
+/// A picture that a shader samples, declared as `uniform sampler2D wood;  // MEANING`.
+struct ShaderImageInfo {
+  std::string name, meaning;
+  std::filesystem::path file;  ///< that it is; empty where only the declaration is known
+  bool is_data = false;        ///< numbers, not colours
+};
+
 /// What is known of a shader without running it, read from its own text.
 struct ShaderInfo {
   std::string name;
   std::string summary;          ///< the first comment line of the text
-  std::uint64_t text_hash = 0;  ///< of the library's complete text, includes too: tells versions of a shader apart
+  std::uint64_t text_hash = 0;  ///< of the complete text, includes and images too: tells versions of a shader apart
   std::vector<ParameterInfo> parameters;
-  bool black_box = false;         ///< radiance(Surface, ...) instead of the split form
-  bool transmits = false;         ///< declares transmittance()
-  bool emits = false;             ///< declares emission()
-  bool has_material = false;      ///< declares material(), for the `parameters` baseline
-  bool varies_in_time = false;    ///< its text reads Surface.time: no map can stand in for it
-  bool perturbs_normals = false;  ///< declares shading_normal(): BoundPatterns::shading_normals() answers
+  std::filesystem::path file;           ///< of shaders of the user's own; empty for the library's
+  std::vector<ShaderImageInfo> images;  ///< none in the library
+  bool black_box = false;               ///< radiance(Surface, ...) instead of the split form
+  bool transmits = false;               ///< declares transmittance()
+  bool emits = false;                   ///< declares emission()
+  bool has_material = false;            ///< declares material(), for the `parameters` baseline
+  bool varies_in_time = false;          ///< its text reads Surface.time: no map can stand in for it
+  bool perturbs_normals = false;        ///< declares shading_normal(): BoundPatterns::shading_normals() answers
 };
 
+/// bind() and what it returns throw Error only for shaders of the user's own, which may fail while they run.
 class Shader {
  public:
   virtual ~Shader() = default;

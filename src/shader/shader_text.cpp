@@ -2,84 +2,23 @@
 #include "shader/shader_text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
 #include "base/error.h"
+#include "shader/shader_tokens.h"
 
 namespace redmap {
 namespace {
 
-struct Line {
-  std::string code, comment;
-};
-
-/// Splits every line into code and `//` comment; block comments vanish.
-std::vector<Line> read_lines(std::string_view text) {
-  std::vector<Line> lines;
-  std::istringstream stream{std::string(text)};
-  bool in_block = false;
-  for (std::string raw; std::getline(stream, raw);) {
-    if (raw.ends_with('\r')) raw.pop_back();
-    Line line;
-    for (std::size_t i = 0; i < raw.size(); ++i) {
-      const std::string_view rest = std::string_view(raw).substr(i);
-      if (in_block) {
-        if (rest.starts_with("*/")) in_block = false, ++i;
-      } else if (rest.starts_with("/*")) {
-        in_block = true, ++i;
-      } else if (rest.starts_with("//")) {
-        line.comment = rest.substr(2);
-        break;
-      } else {
-        line.code += raw[i];
-      }
-    }
-    lines.push_back(std::move(line));
-  }
-  return lines;
-}
-
-std::string trimmed(std::string_view s) {
-  const auto first = s.find_first_not_of(" \t"), last = s.find_last_not_of(" \t");
-  return std::string(first == std::string_view::npos ? "" : s.substr(first, last - first + 1));
-}
-
-/// A word (name or number) or a single other character.
-struct Token {
-  std::string text;
-  std::size_t line;  ///< counted from 0
-};
-
-std::vector<Token> read_tokens(const std::vector<Line>& lines) {
-  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  std::vector<Token> tokens;
-  for (std::size_t l = 0; l < lines.size(); ++l) {
-    const std::string& code = lines[l].code;
-    for (std::size_t i = 0; i < code.size();) {
-      std::size_t end = i + 1;
-      while (in_word(code[i]) && end < code.size() && in_word(code[end])) ++end;
-      if (!std::isspace(static_cast<unsigned char>(code[i]))) tokens.push_back({code.substr(i, end - i), l});
-      i = end;
-    }
-  }
-  return tokens;
-}
-
-/// Where `words` stand one after the other for the first time; tokens.size() if nowhere.
-std::size_t find(const std::vector<Token>& tokens, std::initializer_list<std::string_view> words) {
-  const auto same = [](const Token& token, std::string_view word) { return token.text == word; };
-  const auto found = std::search(tokens.begin(), tokens.end(), words.begin(), words.end(), same);
-  return static_cast<std::size_t>(found - tokens.begin());
-}
+using Lines = std::vector<ShaderLine>;
 
 /// Whether there is a function `TYPE NAME(FIRST ...`.
-bool defines(const std::vector<Token>& tokens, std::string_view type, std::string_view name, std::string_view first) {
-  return find(tokens, {type, name, "(", first}) < tokens.size() ||
-         find(tokens, {type, name, "(", "in", first}) < tokens.size();
+bool defines(const ShaderTokens& tokens, std::string_view type, std::string_view name, std::string_view first) {
+  return find_tokens(tokens, {type, name, "(", first}) < tokens.size() ||
+         find_tokens(tokens, {type, name, "(", "in", first}) < tokens.size();
 }
 
 std::size_t components_of(const std::string& type) {
@@ -131,11 +70,10 @@ void read_comment(std::string_view comment, const std::string& where, ParameterI
 }
 
 /// The member that starts at token `at`: `TYPE NAME;`, alone on its line, with its comment.
-ParameterInfo read_parameter(const std::vector<Line>& lines, const std::vector<Token>& tokens, std::size_t at,
-                             std::string_view file_name) {
+ParameterInfo read_parameter(const Lines& lines, const ShaderTokens& tokens, std::size_t at) {
   const std::size_t line = tokens[at].line;
-  const std::string where = fmt::format("{}:{}", file_name, line + 1);
-  const auto on_line = std::ranges::count(tokens, line, &Token::line);
+  const std::string& where = lines[line].where;
+  const auto on_line = std::ranges::count(tokens, line, &ShaderToken::line);
   if (on_line != 3 || tokens[at + 2].text != ";")
     throw Error("{}: expected one parameter 'TYPE NAME;' on a line, found '{}'", where, trimmed(lines[line].code));
   ParameterInfo parameter{tokens[at + 1].text, tokens[at].text, {}, 0, 0, "", ""};
@@ -146,19 +84,33 @@ ParameterInfo read_parameter(const std::vector<Line>& lines, const std::vector<T
   return parameter;
 }
 
-std::vector<ParameterInfo> read_parameters(const std::vector<Line>& lines, const std::vector<Token>& tokens,
-                                           std::string_view file_name) {
-  const std::size_t start = find(tokens, {"struct", "Parameters", "{"});
+std::vector<ParameterInfo> read_parameters(const Lines& lines, const ShaderTokens& tokens,
+                                           const std::string& file_name) {
+  const std::size_t start = find_tokens(tokens, {"struct", "Parameters", "{"});
   if (start == tokens.size()) throw Error("{}:1: expected 'struct Parameters {{', found none", file_name);
   std::vector<ParameterInfo> parameters;
   for (std::size_t at = start + 3; at < tokens.size(); at += 3) {
     if (tokens[at].text == "}") return parameters;
-    const ParameterInfo parameter = read_parameter(lines, tokens, at, file_name);
+    const ParameterInfo parameter = read_parameter(lines, tokens, at);
     if (std::ranges::find(parameters, parameter.name, &ParameterInfo::name) != parameters.end())
-      throw Error("{}:{}: parameter '{}' is declared twice", file_name, tokens[at].line + 1, parameter.name);
+      throw Error("{}: parameter '{}' is declared twice", lines[tokens[at].line].where, parameter.name);
     parameters.push_back(parameter);
   }
-  throw Error("{}:{}: 'struct Parameters' is not closed by '}}'", file_name, tokens[start].line + 1);
+  throw Error("{}: 'struct Parameters' is not closed by '}}'", lines[tokens[start].line].where);
+}
+
+/// `uniform sampler2D NAME;  // MEANING`, each alone on its line.
+std::vector<ShaderImageInfo> read_images(const Lines& lines, const ShaderTokens& tokens) {
+  std::vector<ShaderImageInfo> images;
+  for (std::size_t at = 0; at + 3 < tokens.size(); ++at) {
+    if (tokens[at].text != "uniform" || tokens[at + 1].text != "sampler2D") continue;
+    const ShaderLine& line = lines[tokens[at].line];
+    if (tokens[at + 3].text != ";")
+      throw Error("{}: expected one image 'uniform sampler2D NAME;' on a line, found '{}'", line.where,
+                  trimmed(line.code));
+    images.push_back({tokens[at + 2].text, trimmed(line.comment), {}, false});
+  }
+  return images;
 }
 
 /// The name in a line `#include "NAME"`, else empty.
@@ -172,6 +124,47 @@ std::string included_name(std::string_view line) {
 }
 
 using ReadInclude = std::function<std::string(std::string_view)>;
+
+/// Whether `line` is the directive `#version`.
+bool is_version(std::string_view line) {
+  const std::string rest = trimmed(line);
+  return rest.starts_with("#") && trimmed(std::string_view(rest).substr(1)).starts_with("version");
+}
+
+/// Puts a text together from its files.
+class SourceReader {
+ public:
+  explicit SourceReader(const ReadSource& read) : read_(read) {}
+  ShaderSources take() { return std::move(sources_); }
+
+  void add(const ShaderSource& source) {
+    const std::size_t index = sources_.names.size();
+    sources_.names.push_back(source.name);
+    open_.push_back(source.name);
+    sources_.text += fmt::format("#line 1 {}\n", index);
+    std::istringstream stream(source.text);
+    std::size_t number = 1;
+    for (std::string line; std::getline(stream, line); ++number) {
+      const std::string included = included_name(line);
+      if (included.empty()) {
+        sources_.text += (is_version(line) ? "" : line) + "\n";
+        continue;
+      }
+      const std::string where = fmt::format("{}:{}", source.name, number);
+      const ShaderSource next = read_(included, source.name, where);
+      if (std::ranges::count(open_, next.name) > 0)
+        throw Error("{}: include \"{}\" leads back to itself", where, included);
+      add(next);
+      sources_.text += fmt::format("#line {} {}\n", number + 1, index);
+    }
+    open_.pop_back();
+  }
+
+ private:
+  const ReadSource& read_;
+  ShaderSources sources_;
+  std::vector<std::string> open_;  ///< the includes that lead here
+};
 
 /// `open` are the includes that lead here.
 std::string resolve_includes(std::string_view text, const ReadInclude& read, std::vector<std::string>& open) {
@@ -194,14 +187,21 @@ std::string resolve_includes(std::string_view text, const ReadInclude& read, std
 }  // namespace
 
 ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name) {
-  const std::vector<Line> lines = read_lines(text);
-  const std::vector<Token> tokens = read_tokens(lines);
+  const std::string names[] = {std::string(file_name)};
+  return parse_shader_text(text, names);
+}
+
+ShaderInfo parse_shader_text(std::string_view text, std::span<const std::string> source_names) {
+  const std::string& file_name = source_names.front();
+  const Lines lines = read_shader_lines(text, source_names);
+  const ShaderTokens tokens = read_shader_tokens(lines);
 
   ShaderInfo info;
   info.name = std::filesystem::path(file_name).stem().string();
-  const auto summary = std::ranges::find_if(lines, [](const Line& l) { return !trimmed(l.comment).empty(); });
+  const auto summary = std::ranges::find_if(lines, [](const ShaderLine& l) { return !trimmed(l.comment).empty(); });
   if (summary != lines.end()) info.summary = trimmed(summary->comment);
   info.parameters = read_parameters(lines, tokens, file_name);
+  info.images = read_images(lines, tokens);
 
   const bool split = defines(tokens, "Pattern", "pattern", "Surface");
   info.black_box = defines(tokens, "vec3", "radiance", "Surface");
@@ -214,8 +214,33 @@ ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name) 
   info.emits = defines(tokens, "vec3", "emission", "Pattern");
   info.has_material = defines(tokens, "Material", "material", "Pattern");
   info.perturbs_normals = defines(tokens, "vec3", "shading_normal", "Surface");
-  info.varies_in_time = find(tokens, {".", "time"}) < tokens.size();
+  info.varies_in_time = find_tokens(tokens, {".", "time"}) < tokens.size();
   return info;
+}
+
+ShaderSources resolve_sources(const ShaderSource& main, const ReadSource& read) {
+  SourceReader reader(read);
+  reader.add(main);
+  return reader.take();
+}
+
+void require_own_world(std::string_view text, std::span<const std::string> source_names) {
+  const Lines lines = read_shader_lines(text, source_names);
+  const ShaderTokens tokens = read_shader_tokens(lines);
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const std::string& word = tokens[i].text;
+    const bool is_image = word == "uniform" && i + 1 < tokens.size() && tokens[i + 1].text == "sampler2D";
+    const bool is_foreign = word == "buffer" || word == "shared" || word == "uniform" || word.starts_with("gl_");
+    const bool is_derivative = word.starts_with("dFdx") || word.starts_with("dFdy") || word.starts_with("fwidth");
+    if (is_derivative && find_tokens(tokens, {"define", word}) == tokens.size())
+      throw Error(
+          "{}:{}: '{}': there is no screen to take derivatives on: leave antialiasing out, redmap filters what "
+          "the shader is at each place",
+          lines[tokens[i].line].where, tokens[i].column + 1, word);
+    if (is_foreign && !is_image)
+      throw Error("{}:{}: '{}': a shader knows its Surface, its Parameters and images (uniform sampler2D NAME;) only",
+                  lines[tokens[i].line].where, tokens[i].column + 1, word);
+  }
 }
 
 std::string resolve_includes(std::string_view text, const ReadInclude& read) {

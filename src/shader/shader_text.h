@@ -2,8 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "shader/shader.h"
 
@@ -13,10 +16,40 @@ namespace redmap {
 /// which functions exist. The shader's name is `file_name` without folder and extension.
 /// Throws Error with `file_name:line` on a malformed declaration or when the required functions are missing.
 ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name);
+/// The same for a text put together from several files (see ShaderSources).
+ShaderInfo parse_shader_text(std::string_view text, std::span<const std::string> source_names);
 
 /// `text` with every `#include "NAME"` line replaced by `read(NAME)`, and so on inside that. An include that leads
 /// back to itself throws Error; a file that is included twice must guard itself.
 std::string resolve_includes(std::string_view text, const std::function<std::string(std::string_view name)>& read);
+
+/// A file of a shader's text.
+struct ShaderSource {
+  std::string name;  ///< as errors call it
+  std::string text;
+};
+
+/// A text put together from files, without its `#version`; a line `#line N I` says that line N of names[I] follows.
+struct ShaderSources {
+  std::string text;
+  std::vector<std::string> names;
+};
+
+/// What `#include "NAME"` means in the file `includer`; `where` is its place, for errors.
+using ReadSource =
+    std::function<ShaderSource(const std::string& name, const std::string& includer, const std::string& where)>;
+
+/// `main` and all it includes. An include that leads back to itself throws Error.
+ShaderSources resolve_sources(const ShaderSource& main, const ReadSource& read);
+
+/// Throws Error "NAME:LINE:COLUMN: ..." where a text reaches for more than a shader is given: buffers, other uniforms
+/// than images, built-in variables of a stage.
+void require_own_world(std::string_view text, std::span<const std::string> source_names);
+
+/// A file that texts can include, such as "include/noise.glsl"; nothing if the library has none of that name.
+std::optional<std::string> library_include(std::string_view name);
+/// All of them.
+std::vector<std::string> library_include_names();
 
 /// The complete text of a library shader, includes resolved, ready for a GLSL compiler behind a version line and
 /// precision statements. Throws Error naming the nearest library shader if there is none of that name.

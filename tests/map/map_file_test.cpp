@@ -96,6 +96,21 @@ TEST(MapFile, ReadsBackBitForBit_WhatWasWritten) {
     }
 }
 
+TEST(MapFile, OriginOfTheShader_IsReadBack_AndHostileOnesAreRefusedByKey) {
+  const TemporaryFolder folder;
+  ReductionMap map = random_map({16, 8}, 2);
+  EXPECT_EQ(describe_map(map).find("shader_origin"), std::string::npos) << "a shader of the library needs none";
+  map.shader_origin = {"../mine.glsl", {{"wood", {"../wood.png", true}}}};
+  write_map(folder / "map.exr", map);
+  const ShaderOrigin found = read_map(folder / "map.exr").shader_origin;
+  EXPECT_EQ(found.file, "../mine.glsl");
+  ASSERT_EQ(found.images.size(), 1u);
+  EXPECT_EQ(found.images.at("wood").path, "../wood.png");
+  EXPECT_TRUE(found.images.at("wood").is_data);
+  patch(folder / "map.exr", "\"is_data\":true", "\"is_data\":1.25");
+  expect_refused(folder / "map.exr", "is_data: expected true or false");
+}
+
 TEST(MapFile, ClustersReadBackBitForBit) {
   const TemporaryFolder folder;
   const ReductionMap map = random_map_with_clusters({64, 64}, 3);

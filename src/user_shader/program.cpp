@@ -1,0 +1,119 @@
+#include "user_shader/program.h"
+
+#include <cstring>
+
+#include "device/glsl_compiler.h"
+
+namespace redmap {
+namespace {
+
+/// No dispatch of a shader whose loops end takes that long. A device's own watchdog may end it sooner.
+constexpr std::chrono::minutes kTimeout{2};
+
+PipelineInputs inputs(std::size_t images) { return {kStageBuffers, static_cast<int>(images), sizeof(StageCall)}; }
+
+}  // namespace
+
+/// What one thread needs at a time: buffers that grow with the batches, and a task a stage.
+struct ShaderProgram::Workspace {
+  std::array<std::unique_ptr<DeviceBuffer>, kStageBuffers> buffers;
+  std::array<std::unique_ptr<ComputeTask>, kStages> tasks;
+
+  DeviceBuffer& buffer(const Device& device, StageBuffer which, std::size_t size) {
+    std::unique_ptr<DeviceBuffer>& kept = buffers[which];
+    if (!kept || kept->size() < size) kept = std::make_unique<DeviceBuffer>(device, size);
+    return *kept;
+  }
+};
+
+struct ShaderProgram::OnDevice {
+  std::shared_ptr<Device> device;
+  std::array<std::unique_ptr<ComputePipeline>, kStages> pipelines;
+  std::vector<DeviceImage> images;
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Workspace>> idle;
+};
+
+/// A workspace for as long as it lives.
+class ShaderProgram::Lease {
+ public:
+  explicit Lease(OnDevice& owner) : owner_(owner) {
+    const std::scoped_lock lock(owner_.mutex);
+    if (owner_.idle.empty()) {
+      workspace_ = std::make_unique<Workspace>();
+    } else {
+      workspace_ = std::move(owner_.idle.back());
+      owner_.idle.pop_back();
+    }
+  }
+  ~Lease() {
+    const std::scoped_lock lock(owner_.mutex);
+    owner_.idle.push_back(std::move(workspace_));
+  }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  Workspace& operator*() { return *workspace_; }
+
+ private:
+  OnDevice& owner_;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+ShaderProgram::ShaderProgram(std::vector<std::uint32_t> spirv, std::vector<std::byte> parameters,
+                             std::vector<Image> images, std::string device)
+    : spirv_(std::move(spirv)),
+      parameters_(std::move(parameters)),
+      images_(std::move(images)),
+      device_(std::move(device)),
+      pattern_size_(array_stride(spirv_, kPatternBlock)) {}
+
+ShaderProgram::~ShaderProgram() = default;
+
+ShaderProgram::OnDevice& ShaderProgram::on_device() const {
+  const std::scoped_lock lock(mutex_);
+  if (on_device_) return *on_device_;
+  auto made = std::make_unique<OnDevice>();
+  made->device = Device::open(device_);
+  for (const Image& image : images_) made->images.emplace_back(*made->device, image);
+  for (std::uint32_t stage = 0; stage < kStages; ++stage)
+    made->pipelines[stage] = std::make_unique<ComputePipeline>(*made->device, spirv_, inputs(images_.size()), stage);
+  on_device_ = std::move(made);
+  return *on_device_;
+}
+
+void ShaderProgram::run(Stage stage, StageCall call, const InputRows& in, std::span<std::byte> patterns,
+                        std::span<float* const> out) const {
+  OnDevice& on = on_device();
+  Lease lease(on);
+  Workspace& workspace = *lease;
+  std::unique_ptr<ComputeTask>& task = workspace.tasks[static_cast<std::size_t>(stage)];
+  if (!task) task = std::make_unique<ComputeTask>(*on.pipelines[static_cast<std::size_t>(stage)]);
+
+  const std::size_t row_bytes = call.places * sizeof(float), in_bytes = in.count * sizeof(float);
+  call.in_stride = static_cast<std::uint32_t>(in.count);
+  const std::size_t sizes[kStageBuffers] = {parameters_.size(), in.rows.size() * in_bytes, patterns.size(),
+                                            out.size() * row_bytes, sizeof kAllEnded};
+  for (int b = 0; b < kStageBuffers; ++b)
+    task->bind(b, workspace.buffer(*on.device, static_cast<StageBuffer>(b), sizes[b]));
+  for (std::size_t i = 0; i < on.images.size(); ++i) task->bind(static_cast<int>(kStageBuffers + i), on.images[i]);
+
+  // In: parameters, rows, patterns.
+  const auto data = [&](StageBuffer which) { return workspace.buffers[which]->data(); };
+  std::memcpy(data(kParameterBuffer), parameters_.data(), parameters_.size());
+  for (std::size_t r = 0; r < in.rows.size(); ++r) std::memcpy(data(kInBuffer) + r * in_bytes, in.rows[r], in_bytes);
+  if (stage != Stage::kBind) std::memcpy(data(kPatternBuffer), patterns.data(), patterns.size());
+  std::memcpy(data(kStatusBuffer), &kAllEnded, sizeof kAllEnded);
+
+  const std::uint32_t groups = (call.places * call.pairs + kGroupSize - 1) / kGroupSize;
+  task->run(std::as_bytes(std::span(&call, 1)), groups, kTimeout);
+
+  std::uint32_t status = 0;
+  std::memcpy(&status, data(kStatusBuffer), sizeof status);
+  if (status != kAllEnded)
+    throw StageError(status / kStatusFunctions % call.places, status_function(status % kStatusFunctions),
+                     fmt::format("expected loops that end, found one that had not after {} rounds", kMostRounds));
+  if (stage == Stage::kBind) std::memcpy(patterns.data(), data(kPatternBuffer), patterns.size());
+  for (std::size_t r = 0; r < out.size(); ++r) std::memcpy(out[r], data(kOutBuffer) + r * row_bytes, row_bytes);
+}
+
+}  // namespace redmap

@@ -1,0 +1,193 @@
+#include "user_shader/user_patterns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace redmap {
+namespace {
+
+/// Most invocations of one dispatch: the results for all direction samples of a bake stay under 8 MB.
+constexpr std::size_t kMostPlaces = 16384;
+/// Of the length of a shading normal: what normalize() leaves, and a little for long chains of rotations.
+constexpr float kUnitTolerance = 1e-3f;
+
+void require_finite(std::span<float* const> rows, std::size_t count, std::string_view function) {
+  for (const float* row : rows)
+    for (std::size_t i = 0; i < count; ++i)
+      if (!std::isfinite(row[i]))
+        throw StageError(i, function, fmt::format("expected finite numbers, found {}", row[i]));
+}
+
+void require_unit(std::span<float* const> rows, std::size_t count, std::string_view function) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float length_found = length(Vec3{rows[0][i], rows[1][i], rows[2][i]});
+    if (!(std::abs(length_found - 1) < kUnitTolerance))
+      throw StageError(i, function, fmt::format("expected a unit vector, found one of length {:g}", length_found));
+  }
+}
+
+template <int N>
+void append_rows(const Planes<N>& planes, std::size_t first, InputRows& in) {
+  for (int c = 0; c < N; ++c) in.rows.push_back(planes[c] + first);
+}
+
+template <int N>
+std::vector<float*> rows_of(Planes<N>& planes, std::size_t first) {
+  std::vector<float*> rows;
+  for (int c = 0; c < N; ++c) rows.push_back(planes[c] + first);
+  return rows;
+}
+
+class UserPatterns final : public BoundPatterns {
+ public:
+  UserPatterns(std::shared_ptr<const UserShaderParts> shader, const SurfacePoints& points)
+      : shader_(std::move(shader)),
+        position_(points.position),
+        bytes_(points.size() * shader_->program.pattern_size()),
+        normals_(shader_->info.perturbs_normals ? points.size() : 0) {
+    for_each_batch(points.size(), [&](std::size_t first, std::size_t count) {
+      InputRows in{{}, count};
+      append_rows(points.position, first, in), append_rows(points.normal, first, in);
+      append_rows(points.tangent, first, in), append_rows(points.uv, first, in);
+      const std::vector<float*> out = shader_->info.perturbs_normals ? rows_of(normals_, first) : std::vector<float*>();
+      StageCall call;
+      call.time = points.time;
+      run(Stage::kBind, call, in, first, count, out);
+      if (out.empty()) return;
+      check(first, [&] { require_unit(out, count, "shading_normal"); });
+    });
+  }
+
+  std::size_t size() const override { return position_.size(); }
+
+  void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
+    out.resize(size());
+    for_each_batch(size(), [&](std::size_t first, std::size_t count) {
+      const std::vector<float*> rows = rows_of(out, first);
+      run(Stage::kRadiance, {}, directions(pairs, first, count), first, count, rows);
+      check(first, [&] { require_finite(rows, count, "radiance"); });
+    });
+  }
+
+  void radiance_one(std::size_t pattern, const DirectionPairs& pairs, Planes<3>& out) const override {
+    out.resize(pairs.size());
+    for_each_batch(pairs.size(), [&](std::size_t first, std::size_t count) {
+      const std::vector<float*> rows = rows_of(out, first);
+      StageCall call;
+      call.pairing = Pairing::kOnePattern;
+      call.places = static_cast<std::uint32_t>(count);
+      // Whatever happens, it happens at the one place.
+      try {
+        shader_->program.run(Stage::kRadiance, call, directions(pairs, first, count), patterns(pattern, 1), rows);
+        require_finite(rows, count, "radiance");
+      } catch (const StageError& error) {
+        shader_->fail(error, position_.get(pattern));
+      }
+    });
+  }
+
+  void radiance_all(const DirectionPairs& pairs, LaneVector<float>& out) const override {
+    const std::size_t stride = padded(size());
+    out.resize(pairs.size() * 3 * stride);
+    for_each_batch(size(), [&](std::size_t first, std::size_t count) {
+      std::vector<float*> rows;
+      for (std::size_t r = 0; r < 3 * pairs.size(); ++r) rows.push_back(out.data() + r * stride + first);
+      StageCall call;
+      call.pairing = Pairing::kAll;
+      call.pairs = static_cast<std::uint32_t>(pairs.size());
+      run(Stage::kRadiance, call, directions(pairs, 0, pairs.size()), first, count, rows);
+      check(first, [&] { require_finite(rows, count, "radiance"); });
+    });
+  }
+
+  void transmittance(Planes<3>& out) const override {
+    out = Planes<3>(size());
+    if (shader_->info.transmits) constants("transmittance", [&](auto& all) { copy(all, 0, out); });
+  }
+  void emission(Planes<3>& out) const override {
+    out = Planes<3>(size());
+    if (shader_->info.emits) constants("emission", [&](auto& all) { copy(all, 3, out); });
+  }
+  bool materials(Materials& out) const override {
+    if (!shader_->info.has_material) return false;
+    out = {};
+    out.resize(size());
+    constants("material", [&](auto& all) {
+      copy(all, 6, out.diffuse), copy(all, 9, out.specular), copy(all, 12, out.transmittance);
+      copy(all, 15, out.exponent), copy(all, 16, out.ggx), copy(all, 17, out.grazing), copy(all, 18, out.roughness);
+    });
+    return true;
+  }
+  bool shading_normals(Planes<3>& out) const override {
+    if (!shader_->info.perturbs_normals) return false;
+    out = normals_;
+    return true;
+  }
+
+ private:
+  using Constants = Planes<kConstantRows>;
+
+  template <typename Body>
+  static void for_each_batch(std::size_t size, const Body& body) {
+    for (std::size_t first = 0; first < size; first += kMostPlaces) body(first, std::min(kMostPlaces, size - first));
+  }
+  static InputRows directions(const DirectionPairs& pairs, std::size_t first, std::size_t count) {
+    InputRows in{{}, count};
+    append_rows(pairs.to_light, first, in), append_rows(pairs.to_viewer, first, in);
+    return in;
+  }
+  template <int N>
+  static void copy(const Constants& from, int row, Planes<N>& to) {
+    for (int c = 0; c < N; ++c) std::copy_n(from[row + c], from.size(), to[c]);
+  }
+
+  std::span<std::byte> patterns(std::size_t first, std::size_t count) const {
+    const std::size_t size_each = shader_->program.pattern_size();
+    return std::span(bytes_).subspan(first * size_each, count * size_each);
+  }
+  /// Errors of places counted from `first` get their position.
+  template <typename Body>
+  void check(std::size_t first, const Body& body) const {
+    try {
+      body();
+    } catch (const StageError& error) {
+      shader_->fail(error, position_.get(first + error.place()));
+    }
+  }
+  void run(Stage stage, StageCall call, const InputRows& in, std::size_t first, std::size_t count,
+           std::span<float* const> out) const {
+    call.places = static_cast<std::uint32_t>(count);
+    check(first, [&] { shader_->program.run(stage, call, in, patterns(first, count), out); });
+  }
+  template <typename Use>
+  void constants(std::string_view function, const Use& use) const {
+    Constants all(size());
+    for_each_batch(size(), [&](std::size_t first, std::size_t count) {
+      const std::vector<float*> rows = rows_of(all, first);
+      run(Stage::kConstants, {}, {}, first, count, rows);
+      check(first, [&] { require_finite(rows, count, function); });
+    });
+    use(all);
+  }
+
+  std::shared_ptr<const UserShaderParts> shader_;
+  Planes<3> position_;
+  mutable std::vector<std::byte> bytes_;  ///< written by the constructor alone
+  Planes<3> normals_;
+};
+
+}  // namespace
+
+void UserShaderParts::fail(const StageError& error, Vec3 p) const {
+  throw Error("shader \"{}\": {}, at position ({:g}, {:g}, {:g}) in object space", info.name, error.what(), p.x, p.y,
+              p.z);
+}
+
+std::unique_ptr<BoundPatterns> bind_user_patterns(std::shared_ptr<const UserShaderParts> shader,
+                                                  const SurfacePoints& points) {
+  return std::make_unique<UserPatterns>(std::move(shader), points);
+}
+
+}  // namespace redmap
