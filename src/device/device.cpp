@@ -128,22 +128,32 @@ VulkanInstance::VulkanInstance() {
                                                     vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation, hear, &log)};
 }
 
-std::vector<DeviceInfo> list_devices() {
+/// One for all, made by whoever asks first and kept until the process ends: drivers do not like to be unloaded. Throws
+/// Error where there is no loader or no driver.
+VulkanInstance& VulkanInstance::get() {
+  static std::mutex mutex;
+  static VulkanInstance* instance = nullptr;
+  const std::scoped_lock lock(mutex);
+  if (instance) return *instance;
   try {
-    return devices_of(VulkanInstance(), nullptr);
-  } catch (const std::runtime_error&) {  // no loader or no driver
-    return {};
-  }
-}
-
-Device::Device(const std::string& choice) {
-  try {
-    impl_ = std::make_shared<Impl>();
+    instance = new VulkanInstance();
   } catch (const Error&) {
     throw;
   } catch (const std::runtime_error&) {  // vulkan.hpp finds no loader
     throw Error("Vulkan: expected its loader (Debian's libvulkan1), found none");
   }
+  return *instance;
+}
+
+std::vector<DeviceInfo> list_devices() {
+  try {
+    return devices_of(VulkanInstance::get(), nullptr);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+Device::Device(const std::string& choice) : impl_(std::make_shared<Impl>()) {
   std::vector<vk::raii::PhysicalDevice> handles;
   const std::vector<DeviceInfo> devices = devices_of(impl_->vulkan, &handles);
   impl_->info = choose(devices, choice);

@@ -31,12 +31,14 @@ struct VulkanInstance {
   vk::raii::Instance instance{nullptr};
   vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
 
-  /// Throws Error where there is no driver.
+  static VulkanInstance& get();
+
+ private:
   VulkanInstance();
 };
 
 struct Device::Impl {
-  VulkanInstance vulkan;
+  VulkanInstance& vulkan = VulkanInstance::get();
   DeviceInfo info;
   vk::raii::PhysicalDevice physical{nullptr};
   vk::PhysicalDeviceLimits limits;

@@ -5,8 +5,8 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <cctype>
+#include <cstdio>
 #include <map>
-#include <regex>
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 #include <sstream>
@@ -23,13 +23,12 @@ constexpr spv_target_env kEnvironment = SPV_ENV_VULKAN_1_1;
 
 /// The text of line `line` of source `source`; empty if there is none.
 std::string find_line(const std::string& text, int source, int line) {
-  static const std::regex directive(R"(\s*#\s*line\s+(\d+)\s+(\d+)\s*)");
   int current_source = 0, current_line = 1;
   std::istringstream stream(text);
   for (std::string raw; std::getline(stream, raw); ++current_line) {
-    std::smatch match;
-    if (std::regex_match(raw, match, directive))
-      current_line = std::stoi(match[1]) - 1, current_source = std::stoi(match[2]);
+    int next_line = 0, next_source = 0;
+    if (std::sscanf(raw.c_str(), " # line %d %d", &next_line, &next_source) == 2)
+      current_line = next_line - 1, current_source = next_source;
     else if (current_source == source && current_line == line)
       return raw;
   }
@@ -51,14 +50,15 @@ std::size_t column_of(const std::string& line, const std::string& token) {
   return first == std::string::npos ? 1 : first + 1;
 }
 
-/// The first error of glslang's log, in our words.
+/// The first error of glslang's log, "ERROR: SOURCE:LINE: 'TOKEN' : MESSAGE", in our words.
 std::string first_error(const std::string& log, const std::string& text, std::span<const std::string> source_names) {
-  static const std::regex pattern(R"(ERROR: (\d+):(\d+): '([^\n]*?)' : +([^\n]*))");
-  std::smatch match;
-  if (!std::regex_search(log, match, pattern)) return log.substr(0, log.find('\n'));
-  const int source = std::stoi(match[1]), line = std::stoi(match[2]);
-  const std::string token = match[3];
-  std::string message = match[4];
+  const std::string first = log.substr(0, log.find('\n'));
+  int source = 0, line = 0, after = 0;
+  const bool has_place = std::sscanf(first.c_str(), "ERROR: %d:%d: '%n", &source, &line, &after) == 2 && after > 0;
+  const std::size_t end = has_place ? first.find("' : ", after) : std::string::npos;
+  if (end == std::string::npos) return first;
+  const std::string token = first.substr(after, end - after);
+  std::string message = first.substr(first.find_first_not_of(' ', end + 4));
   message.erase(message.find_last_not_of(" \t\r") + 1);
   const std::string name =
       source < static_cast<int>(source_names.size()) ? source_names[source] : fmt::format("source {}", source);

@@ -1,6 +1,8 @@
 #include "user_shader/stages.h"
 
-#include <regex>
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
 
 #include "base/error.h"
 
@@ -144,12 +146,20 @@ void main() {
 )";
 
 /// Vulkan wants to know where images are bound.
-std::string with_image_bindings(std::string text, const ShaderInfo& info) {
-  for (std::size_t i = 0; i < info.images.size(); ++i) {
-    const std::regex declaration(fmt::format("\\buniform(\\s+sampler2D\\s+{}\\b)", info.images[i].name));
-    text = std::regex_replace(text, declaration, fmt::format("layout(binding = {}) uniform$1", kStageBuffers + i));
+std::string with_image_bindings(const std::string& text, const ShaderInfo& info) {
+  std::string result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t at = std::min(line.find("uniform"), line.size());
+    char name[256] = "";
+    if (std::sscanf(line.c_str() + at, "uniform sampler2D %255[A-Za-z0-9_]", name) == 1) {
+      const auto found = std::ranges::find(info.images, name, &ShaderImageInfo::name);
+      if (found != info.images.end())
+        line.insert(at, fmt::format("layout(binding = {}) ", kStageBuffers + (found - info.images.begin())));
+    }
+    result += line + "\n";
   }
-  return text;
+  return result;
 }
 
 std::string definitions(const ShaderInfo& info) {
