@@ -19,7 +19,22 @@ constexpr float kFieldDegrees = 40;  // the design's view: 512 pixels over 40 de
 constexpr float kPixelsPerField = 512;
 constexpr float kMargin = 1.15f;  // of the picture around the object's bounding sphere
 
-/// Of the sphere about the centre of its box that holds the surface.
+/// Camera on +z at `distance` from the origin, its picture cropped to the object and to `largest` pixels (0: any
+/// number), its pixels all the same angle.
+Camera camera_at(float distance, float radius, int largest) {
+  const float pixel = 2 * std::tan(kFieldDegrees * kPi / 360) / kPixelsPerField;
+  const float half = radius / std::sqrt(std::max(distance * distance - radius * radius, 0.1f * radius * radius));
+  const int whole = std::max(8, 2 * static_cast<int>(std::ceil(kMargin * half / pixel)));
+  const int size = largest > 0 ? std::min(whole, largest) : whole;
+  Camera camera;
+  camera.position = {0, 0, distance};
+  camera.width = camera.height = size;
+  camera.vertical_fov_degrees = 2 * std::atan(0.5f * pixel * static_cast<float>(size)) * 180 / kPi;
+  return camera;
+}
+
+}  // namespace
+
 float bounding_radius(const Surface& surface) {
   std::vector<Vec3> places;
   if (surface.mesh()) {
@@ -39,20 +54,6 @@ float bounding_radius(const Surface& surface) {
   for (Vec3 place : places) radius = std::max(radius, length(place - centre));
   return radius;
 }
-
-/// Camera on +z at `distance` from the origin, its picture cropped to the object, its pixels all the same angle.
-Camera camera_at(float distance, float radius) {
-  const float pixel = 2 * std::tan(kFieldDegrees * kPi / 360) / kPixelsPerField;
-  const float half = radius / std::sqrt(std::max(distance * distance - radius * radius, 0.1f * radius * radius));
-  const int size = std::max(8, 2 * static_cast<int>(std::ceil(kMargin * half / pixel)));
-  Camera camera;
-  camera.position = {0, 0, distance};
-  camera.width = camera.height = size;
-  camera.vertical_fov_degrees = 2 * std::atan(0.5f * pixel * static_cast<float>(size)) * 180 / kPi;
-  return camera;
-}
-
-}  // namespace
 
 std::shared_ptr<const Surface> make_bench_surface(const std::string& object, const std::filesystem::path& models) {
   if (object == "sphere") return make_sphere(1);
@@ -103,7 +104,7 @@ double median_minification(const Scene& scene) {
 }
 
 Scene make_bench_scene(const std::shared_ptr<const Surface>& surface, const std::shared_ptr<const Shader>& shader,
-                       int map_size, double minification, int view) {
+                       int map_size, double minification, int view, int largest) {
   Scene scene;
   Object object;
   object.name = "object";
@@ -121,16 +122,21 @@ Scene make_bench_scene(const std::shared_ptr<const Surface>& surface, const std:
   scene.lights.push_back(light);
   scene.background = {0.35f, 0.45f, 0.6f};
 
+  place_camera(scene, minification, largest);
+  return scene;
+}
+
+void place_camera(Scene& scene, double minification, int largest) {
   // The footprint grows in proportion to the distance from the near side: a few corrections are exact.
+  const float radius = bounding_radius(*scene.objects.front().surface);
   float distance = 4 * radius;
   for (int correction = 0; correction < 4; ++correction) {
-    scene.camera = camera_at(distance, radius);
+    scene.camera = camera_at(distance, radius, largest);
     const double now = median_minification(scene);
     distance = 0.5f * radius + (distance - 0.5f * radius) * static_cast<float>(minification / now);
     distance = std::max(distance, 1.2f * radius);
   }
-  scene.camera = camera_at(distance, radius);
-  return scene;
+  scene.camera = camera_at(distance, radius, largest);
 }
 
 Scene turned(const Scene& scene, double degrees) {

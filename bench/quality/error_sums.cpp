@@ -37,6 +37,12 @@ void ErrorSums::add(const Image& image, const Image& reference, std::span<const 
     }
 }
 
+double ErrorSums::mean_reference() const {
+  double sum = 0;
+  for (const Pixel& pixel : pixels_) sum += static_cast<double>(pixel.reference);
+  return pixels_.empty() ? 0 : sum / (3 * static_cast<double>(pixels_.size()));
+}
+
 double ErrorSums::brightest_tenth() const {
   if (pixels_.empty()) return 0;
   std::vector<Pixel> sorted = pixels_;

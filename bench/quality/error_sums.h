@@ -22,6 +22,8 @@ class ErrorSums {
   /// Clamped error over the pixels whose reference is in the brightest tenth of the interior.
   double brightest_tenth() const;
   double percentile_95() const;
+  /// Mean of the reference over R, G and B of the interior.
+  double mean_reference() const;
   double interior_pixels() const { return interior_.count; }
 
  private:

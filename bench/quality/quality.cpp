@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "bench_scene.h"
 #include "error_sums.h"
-#include "metrics/compare.h"
+#include "reference.h"
 #include "shader/shader.h"
 
 namespace redmap::bench {
@@ -21,11 +21,6 @@ constexpr int kCurveSpp[] = {1, 4, 9, 16, 36, 64, 144};
 // Pixels of the interior that a case should have, and views that may be spent on them.
 constexpr double kEnoughPixels = 20000;
 constexpr int kMostViews = 8;
-// Degrees a frame at the fast speed, and pixels a frame at the slow one, where crawl lives.
-constexpr double kFastDegrees = 1.0, kSlowPixels = 0.2;
-// Every random number of a reference comes from here, every one of a method from seed 0.
-constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;
-
 /// One row of the table to be.
 struct MethodCase {
   Method method;
@@ -40,31 +35,6 @@ struct Case {
   std::vector<std::vector<PixelClass>> classes;
   double residual = 0;
 };
-
-RenderedFrame render_once(const Scene& scene, const std::vector<ObjectData>& data, const RenderOptions& options,
-                          int frame) {
-  return Renderer(scene, options, data).render(scene, frame);
-}
-
-RenderOptions reference_options(int spp, std::uint64_t half) {
-  RenderOptions options;
-  options.method = Method::kSupersample;
-  options.spp = spp;
-  options.seed = kReferenceSeed + half;
-  options.classify = true;
-  return options;
-}
-
-/// The mean of two independent halves; `classes` as the first saw them.
-Image render_reference(const Scene& scene, const std::vector<ObjectData>& data, int spp, int frame,
-                       std::vector<PixelClass>& classes, ErrorSums& between_halves) {
-  RenderedFrame a = render_once(scene, data, reference_options(spp / 2, 0), frame);
-  const RenderedFrame b = render_once(scene, data, reference_options(spp / 2, 1), frame);
-  between_halves.add(a.image, b.image, a.classes);
-  classes = std::move(a.classes);
-  for (std::size_t i = 0; i < a.image.data.size(); ++i) a.image.data[i] = 0.5f * (a.image.data[i] + b.image.data[i]);
-  return std::move(a.image);
-}
 
 Case make_case(const std::shared_ptr<const Surface>& surface, const std::shared_ptr<const Shader>& shader,
                const std::vector<ObjectData>& data, double minification, const QualityOptions& options) {
@@ -148,34 +118,6 @@ void measure_speed(const Case& c, const RenderOptions& options, int repeats, Qua
   row.lookups_per_pixel = static_cast<double>(counts.lookups) / pixels;
 }
 
-Image interior_mask(const Image& image, std::span<const PixelClass> classes) {
-  Image mask(image.width, image.height, 1);
-  for (std::size_t i = 0; i < classes.size(); ++i)
-    mask.data[i] = classes[i] == PixelClass::kInterior || classes[i] == PixelClass::kSeam;
-  return mask;
-}
-
-/// Flicker of every method while the object turns by `degrees` a frame, with one reference for all.
-std::vector<double> measure_flicker(const Case& c, const std::vector<MethodCase>& methods, double degrees,
-                                    const QualityOptions& options) {
-  std::vector<std::unique_ptr<Renderer>> renderers;
-  for (const MethodCase& method : methods)
-    renderers.push_back(std::make_unique<Renderer>(c.views.front(), options_of(method), c.data));
-  std::vector<FlickerMeter> meters(methods.size());
-  ErrorSums unused;
-  for (int frame = 0; frame < options.flicker_frames; ++frame) {
-    const Scene scene = turned(c.views.front(), degrees * frame);
-    std::vector<PixelClass> classes;
-    const Image reference = render_reference(scene, c.data, options.reference_spp, frame, classes, unused);
-    const Image mask = interior_mask(reference, classes);
-    for (std::size_t i = 0; i < methods.size(); ++i)
-      meters[i].add(renderers[i]->render(scene, frame).image, reference, &mask);
-  }
-  std::vector<double> flicker;
-  for (const FlickerMeter& meter : meters) flicker.push_back(meter.flicker());
-  return flicker;
-}
-
 std::vector<MethodCase> methods_of(const QualityOptions& options, const Shader& shader) {
   std::vector<MethodCase> all{{Method::kOriginal, Quality::kDefault, 1},
                               {Method::kSupersample, Quality::kDefault, 4},
@@ -214,8 +156,13 @@ void measure_case(const Case& c, const QualityRow& labels, const std::vector<Met
     rows.push_back(row);
   }
   if (options.flicker_frames < 2) return;
-  const auto fast = measure_flicker(c, methods, kFastDegrees, options);
-  const auto slow = measure_flicker(c, methods, degrees_for_pixels(c.views.front(), kSlowPixels), options);
+  std::vector<RenderOptions> renderers;
+  for (const MethodCase& method : methods) renderers.push_back(options_of(method));
+  const auto flicker = [&](double degrees) {
+    return measure_flicker([&](int frame) { return turned(c.views.front(), degrees * frame); }, c.data, renderers,
+                           options.flicker_frames, options.reference_spp);
+  };
+  const auto fast = flicker(kFastDegrees), slow = flicker(degrees_for_pixels(c.views.front(), kSlowPixels));
   for (std::size_t i = 0; i < methods.size(); ++i)
     rows[first + i].flicker = fast[i], rows[first + i].flicker_slow = slow[i];
 }

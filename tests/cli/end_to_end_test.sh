@@ -68,6 +68,8 @@ for method in original supersample parameters paper map; do
   holds render.json 'len(j["frames"]) == 1 and j["frames"][0]["rays_per_pixel"] > 0'
 done
 runs render scene.toml -o fast.png --quality fast
+runs render scene.toml -o decisions.png --show decisions --method paper
+says "mean normal"
 for threads in 1 2 7; do runs render scene.toml -o threads$threads.exr --threads $threads; done
 cmp -s threads1.exr threads2.exr && cmp -s threads1.exr threads7.exr ||
   fail "expected the same frame for 1, 2 and 7 threads"
@@ -99,6 +101,16 @@ runs bench quality --objects sphere --shaders noise --minifications 4 --methods 
 holds quality.json '{row["method"] for row in j["rows"]} == {"supersample", "map"} and j["machine"]'
 holds quality.json 'all(row["rmse_interior"] > 0 for row in j["rows"])'
 
+runs bench normals --objects plane --bumps fbm.25 --glosses phong20 --minifications 4 --size 64 --pixels 16 \
+  --reference-spp 32 --views 1 --json normals.json --pictures cases
+holds normals.json '{row["method"] for row in j["rows"]} == {"map", "paper", "parameters", "supersample"}'
+holds normals.json '{"object", "bump", "gloss", "minification", "method", "spp", "relative_rmse", "flicker", "flicker_slow",
+  "shader_calls_per_lookup", "microseconds_per_pixel"} <= set(j["rows"][0])'
+holds normals.json '{"map_over_64spp_rmse", "map_over_paper_rmse", "map_over_parameters_rmse", "map_over_64spp_flicker",
+  "calls_single_basis", "win_rate_against_64spp", "worst_over_64spp"} <= set(j["summary"])'
+holds normals.json '[s["minification"] for s in j["summary"]["by_minification"]] == [4]'
+runs compare cases/plane_fbm.25_phong20_4.png cases/plane_fbm.25_phong20_4.png
+
 # Maps that do not belong to the scene, or are none.
 mkdir kept && cp maps/ball.exr kept/
 refuses "marble" render scene.toml -o other.exr -D ball.shader=marble
@@ -129,6 +141,7 @@ refuses "scale" bake scene.toml -D ball.scael=3
 refuses "ball" bake scene.toml --object bal
 head -c 100 scene.toml >truncated.toml
 refuses "truncated.toml" bake truncated.toml
+refuses "fbm.3" bench normals --bumps fbm.3
 refuses "marbel" bench quality --objects sphere --shaders marbel
 [ ! -e other.exr ] && [ ! -e other.obj ] || fail "expected no output of what was refused"
 
