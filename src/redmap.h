@@ -12,10 +12,17 @@
 // Devices: Vulkan for compute.
 #include "device/device.h"
 
-// Surfaces: spheres, cylinders and triangle meshes with an atlas.
+// Surfaces: spheres, cylinders and triangle meshes with an atlas. Meshes are read, oriented, repaired and simplified,
+// their uv judged, and made where they are not fit.
 #include "surface/atlas.h"
+#include "surface/atlas_picture.h"
+#include "surface/map_size.h"
 #include "surface/mesh.h"
+#include "surface/mesh_units.h"
+#include "surface/prepare.h"
+#include "surface/repair.h"
 #include "surface/surface.h"
+#include "surface/uv_quality.h"
 
 // Shaders: the library's, by name, and what can be set on them.
 #include "shader/parameters.h"
@@ -34,6 +41,7 @@
 #include "bake/bake.h"
 
 // From a scene and its maps to pictures.
+#include "render/closest_view.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "scene/scene_file.h"

@@ -15,6 +15,7 @@
 #include "common.h"
 #include "map/map_file.h"
 #include "map_json.h"
+#include "render/closest_view.h"
 #include "scene/basis.h"
 #include "scene/scene_file.h"
 
@@ -25,7 +26,8 @@ namespace {
 struct Options {
   std::string scene, folder, selection = "greedy", device;
   std::vector<std::string> objects, overrides;
-  int size = 0;  ///< 0: as the scene says
+  std::string size;           ///< a number or "auto"; empty: as the scene says
+  float texels_per_unit = 0;  ///< 0: as the scene says
   BakeOptions bake;
   CommonOptions common;
 };
@@ -44,14 +46,12 @@ std::vector<Object> objects_to_bake(const Options& options, const SceneFile& fil
   return objects;
 }
 
-int map_size(const Options& options, const Object& object) { return options.size > 0 ? options.size : object.map_size; }
-
 /// What keeps two objects from sharing a map; empty if nothing does.
-std::string_view difference(const Options& options, const Object& a, const Object& b) {
+std::string_view difference(const Object& a, const Object& b) {
   if (a.surface->fingerprint() != b.surface->fingerprint()) return "surface";
   if (a.shader->info().text_hash != b.shader->info().text_hash) return "shader";
   if (a.shader->parameters() != b.shader->parameters()) return "shader parameters";
-  if (map_size(options, a) != map_size(options, b)) return "map_size";
+  if (a.map_size != b.map_size) return "map_size";
   return "";
 }
 
@@ -73,7 +73,7 @@ std::vector<PlannedMap> plan_maps(const Options& options, const std::vector<Obje
       continue;
     }
     PlannedMap& first = planned[found->second];
-    if (const std::string_view what = difference(options, first.object, object); !what.empty())
+    if (const std::string_view what = difference(first.object, object); !what.empty())
       throw Error(
           "bake: {}: expected one object, or several that are alike, found \"{}\" and \"{}\", which differ in {}",
           map_path(options, object).string(), first.object.name, object.name, what);
@@ -88,10 +88,28 @@ void make_folder(const std::filesystem::path& folder) {
   if (error) throw Error("{}: cannot make the folder for the maps: {}", folder.string(), error.message());
 }
 
+/// What --size and --texels-per-unit say in place of the scene; then settles what is left open, and says how.
+nlohmann::json settle_sizes(const Options& options, SceneFile& file) {
+  if (options.texels_per_unit > 0 && !options.size.empty() && options.size != "auto")
+    throw Error("bake: --texels-per-unit: expected --size auto or no --size beside it, found --size {}", options.size);
+  const bool is_auto = options.size == "auto" || options.texels_per_unit > 0;
+  for (std::size_t i = 0; i < file.at(1).objects.size(); ++i) {
+    if (is_auto) file.set_map_size(i, kAutoMapSize), file.set_texels_per_unit(i, options.texels_per_unit);
+    if (!is_auto && !options.size.empty()) file.set_map_size(i, std::stoi(options.size));
+  }
+  nlohmann::json json = nlohmann::json::array();
+  for (const SettledMapSize& settled : settle_map_sizes(file, [] { return interrupted(); })) {
+    fmt::print(stderr, "{}: map size {}: {}\n", settled.object, settled.size, settled.reason);
+    json.push_back({{"object", settled.object}, {"size", settled.size}, {"reason", settled.reason}});
+  }
+  stop_if_interrupted();
+  return json;
+}
+
 nlohmann::json bake_object(const Options& options, const Object& object) {
   BakeOptions bake_options = options.bake;
   bake_options.selection = options.selection == "paper" ? BasisSelection::kPaper : BasisSelection::kGreedy;
-  bake_options.size = map_size(options, object);
+  bake_options.size = object.map_size;
   const std::filesystem::path path = map_path(options, object);
   BakeReport report;
   ReductionMap map;
@@ -122,8 +140,9 @@ nlohmann::json bake_object(const Options& options, const Object& object) {
 
 void bake_scene(const Options& options) {
   const ThreadLimit limit(static_cast<std::size_t>(options.common.threads));
-  const SceneFile file = SceneFile::load(options.scene, options.overrides, options.device);
+  SceneFile file = SceneFile::load(options.scene, options.overrides, options.device);
   print_remarks(file, options.common);
+  const nlohmann::json sizes = settle_sizes(options, file);
   nlohmann::json maps = nlohmann::json::array();
   for (const PlannedMap& planned : plan_maps(options, objects_to_bake(options, file))) {
     maps.push_back(bake_object(options, planned.object));
@@ -131,7 +150,7 @@ void bake_scene(const Options& options) {
       fmt::print("{}: shares {}\n", name, map_path(options, planned.object).string());
     stop_if_interrupted();
   }
-  write_json(options.common.json, {{"maps", maps}});
+  write_json(options.common.json, {{"maps", maps}, {"settled_sizes", sizes}});
 }
 
 }  // namespace
@@ -147,8 +166,13 @@ void add_bake_command(CLI::App& app) {
   sub->add_option("scene", options->scene, "the scene's TOML file")->required();
   sub->add_option("--object", options->objects, "only this object (may be given several times)")
       ->allow_extra_args(false);
-  sub->add_option("--size", options->size, "texels across a map; default: as the scene says")
-      ->check(CLI::Range(1, 16384));
+  sub->add_option("--size", options->size,
+                  "texels across a map, or auto: as fine as the pixels of the closest view over all "
+                  "frames; default: as the scene says")
+      ->check(CLI::Range(1, 16384) | CLI::IsMember({"auto"}));
+  sub->add_option("--texels-per-unit", options->texels_per_unit,
+                  "with --size auto: this many texels along a unit of length of the object instead")
+      ->check(CLI::PositiveNumber);
   sub->add_option("--tolerance", bake_options.tolerance, "largest residual, in units of a sample's RMS")
       ->capture_default_str();
   sub->add_option("--max-basis", bake_options.max_basis, "most basis reflectances")->capture_default_str();

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "atlas_input.h"
 #include "base/parallel.h"
 #include "commands.h"
 #include "common.h"
 #include "mesh_input.h"
-#include "surface/atlas.h"
 #include "surface/mesh.h"
 #include "surface/prepare.h"
 
@@ -22,7 +22,7 @@ struct Options {
   MeshInput in;
   std::string out;
   PrepareOptions prepare;
-  AtlasOptions atlas;
+  AtlasInput atlas;
   bool unwrap = false;
   CommonOptions common;
 };
@@ -62,14 +62,14 @@ void report_atlas(const AtlasReport& report, nlohmann::json& json) {
   json["atlas"] = {{"charts", report.charts}, {"l2_stretch", report.l2_stretch}, {"packing", report.packing}};
 }
 
-void run(const Options& options) {
+void run(Options& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
   nlohmann::json json;
   TriangleMesh mesh = read_mesh_input(options.in, json);
   if (asks_for_preparation(options.prepare))
     report_preparation(prepare(mesh, options.prepare), options.prepare.repair, options.common.verbose, json);
   stop_if_interrupted();
-  if (options.unwrap) report_atlas(unwrap(mesh, options.atlas), json);
+  if (options.unwrap) report_atlas(unwrap_as_asked(mesh, options.atlas, json), json);
   stop_if_interrupted();
   write_mesh(options.out, mesh);
   fmt::print("{}: {} vertices, {} triangles\n", options.out, mesh.positions.size(), mesh.triangles.size());
@@ -98,11 +98,7 @@ void add_mesh_command(CLI::App& app) {
   sub->add_flag("--largest-part", options->prepare.largest_part, "keep only the largest connected part");
   sub->add_flag("--unit-sphere", options->prepare.unit_sphere, "move and scale it into the unit sphere at the origin");
   sub->add_flag("--unwrap", options->unwrap, "make an atlas");
-  sub->add_option("--charts", options->atlas.charts, "charts the atlas starts from")->capture_default_str();
-  sub->add_option("--max-stretch", options->atlas.max_l2_stretch, "split charts of more L2 stretch than this")
-      ->capture_default_str();
-  sub->add_option("--resolution", options->atlas.resolution, "texels across for which the gutter is sized")
-      ->capture_default_str();
+  add_atlas_input(*sub, options->atlas);
   add_common_options(*sub, options->common);
   sub->callback([options] { run(*options); });
 }

@@ -18,6 +18,7 @@
 #include "commands.h"
 #include "common.h"
 #include "object_data.h"
+#include "render/closest_view.h"
 #include "scene/fingerprint.h"
 #include "scene/frame_spec.h"
 #include "scene/scene_file.h"
@@ -144,8 +145,10 @@ void report_maps(const Scene& scene, Method method, const std::vector<ObjectData
 
 void run_render(const RenderCommandOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
-  const SceneFile file = SceneFile::load(options.scene, options.overrides, options.device);
+  SceneFile file = SceneFile::load(options.scene, options.overrides, options.device);
   print_remarks(file, options.common);
+  // Maps know their size; averaged parameters get the size that a map would have.
+  if (options.method == "parameters") settle_map_sizes(file, [] { return interrupted(); });
   const std::vector<int> frames = frames_to_render(options, file);
   const RenderOptions render = render_options(options);
   const std::uint64_t settings = settings_fingerprint(render, file.at(frames.front()));

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "atlas_input.h"
 #include "base/image.h"
 #include "base/parallel.h"
 #include "commands.h"
 #include "common.h"
 #include "mesh_input.h"
-#include "surface/atlas.h"
 #include "surface/atlas_picture.h"
 #include "surface/uv_quality.h"
 
@@ -24,14 +24,14 @@ constexpr int kPictureSize = 1024;
 struct Options {
   MeshInput in;
   std::string out, picture;
-  AtlasOptions atlas;
+  AtlasInput atlas;
   CommonOptions common;
 };
 
-/// Measured on the uv themselves, overlap at twice the resolution that the atlas is made for.
-void report_quality(const TriangleMesh& mesh, const AtlasReport& atlas, const AtlasOptions& options, double seconds,
+/// Measured on the uv themselves, overlap at twice the `size` that the atlas is made for.
+void report_quality(const TriangleMesh& mesh, const AtlasReport& atlas, int size, double seconds,
                     nlohmann::json& json) {
-  const UvReport uv = judge_uv(mesh, 2 * options.resolution);
+  const UvReport uv = judge_uv(mesh, 2 * size);
   const auto row = [](const char* name, const std::string& value) { fmt::print("  {:<28}{:>10}\n", name, value); };
   row("triangles", fmt::format("{}", mesh.triangles.size()));
   row("charts", fmt::format("{}", atlas.charts));
@@ -39,7 +39,7 @@ void report_quality(const TriangleMesh& mesh, const AtlasReport& atlas, const At
   row("texel density, 5 % / 95 %", fmt::format("{:.2f} / {:.2f}", uv.density_low, uv.density_high));
   row("of the square covered", fmt::format("{:.1f} %", 100 * atlas.packing));
   row("flipped triangles", fmt::format("{}", atlas.flips));
-  row(fmt::format("overlap at {} texels", 2 * options.resolution).c_str(), fmt::format("{}", uv.overlapping_texels));
+  row(fmt::format("overlap at {} texels", 2 * size).c_str(), fmt::format("{}", uv.overlapping_texels));
   row("seconds", fmt::format("{:.2f}", seconds));
   json["atlas"] = {{"charts", atlas.charts},
                    {"l2_stretch", atlas.l2_stretch},
@@ -51,15 +51,15 @@ void report_quality(const TriangleMesh& mesh, const AtlasReport& atlas, const At
                    {"seconds", seconds}};
 }
 
-void run(const Options& options) {
+void run(Options& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
   nlohmann::json json;
   TriangleMesh mesh = read_mesh_input(options.in, json);
   const auto start = std::chrono::steady_clock::now();
-  const AtlasReport atlas = unwrap(mesh, options.atlas);
+  const AtlasReport atlas = unwrap_as_asked(mesh, options.atlas, json);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   stop_if_interrupted();
-  report_quality(mesh, atlas, options.atlas, seconds, json);
+  report_quality(mesh, atlas, options.atlas.atlas.resolution, seconds, json);
   write_mesh(options.out, mesh);
   if (!options.picture.empty()) write_image(draw_atlas(mesh, kPictureSize), options.picture);
   json["vertices"] = mesh.positions.size();
@@ -74,16 +74,12 @@ void add_unwrap_command(CLI::App& app) {
   sub->footer(
       "Examples:\n"
       "  redmap unwrap bunny.ply -o bunny.obj --picture bunny_atlas.png\n"
-      "  redmap unwrap car.glb --part tyres -o tyres.obj --resolution 2048");
+      "  redmap unwrap car.glb --part tyres -o tyres.obj --size 2048");
   auto options = std::make_shared<Options>();
   add_mesh_input(*sub, options->in);
   sub->add_option("-o,--output", options->out, "the mesh to write, with its uv: .obj or .ply")->required();
   sub->add_option("--picture", options->picture, "draw the atlas: .png or .exr")->type_name("FILE");
-  sub->add_option("--charts", options->atlas.charts, "charts to start from")->capture_default_str();
-  sub->add_option("--max-stretch", options->atlas.max_l2_stretch, "split charts of more L2 stretch than this")
-      ->capture_default_str();
-  sub->add_option("--resolution", options->atlas.resolution, "texels across for which the gutter is sized")
-      ->capture_default_str();
+  add_atlas_input(*sub, options->atlas);
   add_common_options(*sub, options->common);
   sub->callback([options] { run(*options); });
 }

@@ -49,10 +49,14 @@ void keep(Shapes& shapes, std::span<const std::uint8_t> triangles) {
 /// Gives the mesh at rest the uv that it will be baked with; their tiles.
 std::vector<int> settle_uv(const MeshRequest& request, const std::filesystem::path& cache_folder, TriangleMesh& mesh,
                            std::vector<std::string>& remarks) {
+  const AtlasOptions atlas{.part_density = request.part_density};
   const std::string name = (request.rest.empty() ? request.mesh : request.rest).filename().string();
   if (request.uv == UvChoice::kFile && mesh.uv_triangles.empty())
     throw Error("{}: expected uv on every face, found none or on some only (uv = \"auto\" makes them)", name);
-  if (request.uv != UvChoice::kUnwrap && !mesh.uv_triangles.empty()) {
+  if (request.uv == UvChoice::kFile && !request.part_density.empty())
+    throw Error("{}: expected part_density where uv are made anew, found it with uv = \"file\"", name);
+  const bool may_keep = request.uv != UvChoice::kUnwrap && request.part_density.empty();
+  if (may_keep && !mesh.uv_triangles.empty()) {
     const UvReport report = judge_uv(mesh);
     if (report.problem.empty()) return report.tiles;
     if (request.uv == UvChoice::kFile) {
@@ -62,7 +66,7 @@ std::vector<int> settle_uv(const MeshRequest& request, const std::filesystem::pa
     }
     remarks.push_back(fmt::format("{}: {}: unwrapped anew (uv = \"file\" insists on them)", name, report.problem));
   }
-  unwrap_cached(mesh, cache_folder);
+  unwrap_cached(mesh, cache_folder, atlas);
   return {kFirstTile};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +26,8 @@ struct MeshRequest {
   std::string part;            ///< a group or material of the file; empty: all of it
   MeshUnits units;
   UvChoice uv = UvChoice::kAuto;
-  int uv_set = 0;  ///< glTF: which TEXCOORD
+  int uv_set = 0;                             ///< glTF: which TEXCOORD
+  std::map<std::string, float> part_density;  ///< AtlasOptions::part_density; not empty: with new uv only
   friend bool operator==(const MeshRequest& a, const MeshRequest& b) = default;
 };
 

@@ -84,7 +84,7 @@ std::shared_ptr<const Shader> read_shader(const TableReader& object, const std::
   return at_key(object, "parameters", [&] { return make_library_shader(name, parameters); });
 }
 
-constexpr std::string_view kMeshKeys[] = {"rest_mesh", "part", "up", "unit", "uv", "uv_set"};
+constexpr std::string_view kMeshKeys[] = {"rest_mesh", "part", "up", "unit", "uv", "uv_set", "part_density"};
 constexpr int kMaxUvSet = 15;  // more than any file was seen to have
 
 MeshUnits read_units(const TableReader& reader) {
@@ -100,6 +100,28 @@ UvChoice read_uv_choice(const TableReader& reader) {
   if (!reader.has("uv")) return UvChoice::kAuto;
   const std::string choice = reader.choice("uv", {"auto", "file", "unwrap"});
   return choice == "auto" ? UvChoice::kAuto : choice == "file" ? UvChoice::kFile : UvChoice::kUnwrap;
+}
+
+std::map<std::string, float> read_part_density(const TableReader& object) {
+  std::map<std::string, float> densities;
+  if (!object.has("part_density")) return densities;
+  const TableReader reader(object.table("part_density"), object.full_key("part_density"));
+  for (const std::string& name : reader.keys()) densities[name] = reader.number(name, kPositive);
+  return densities;
+}
+
+void read_map_size(const TableReader& reader, Object& object) {
+  object.texels_per_unit = reader.number("texels_per_unit", 0, kPositive);
+  if (reader.has_text("map_size")) {
+    if (reader.text("map_size") != "auto")
+      reader.fail("map_size", fmt::format("a whole number from 1 to {} or \"auto\"", kMaxMapSize));
+    object.map_size = kAutoMapSize;
+  } else if (reader.has("map_size") && reader.has("texels_per_unit")) {
+    reader.complain("texels_per_unit", "expected map_size = \"auto\" or none beside it, found a number");
+  } else {
+    const bool is_auto = reader.has("texels_per_unit");
+    object.map_size = is_auto ? kAutoMapSize : reader.integer("map_size", object.map_size, 1, kMaxMapSize);
+  }
 }
 
 }  // namespace
@@ -118,6 +140,7 @@ std::vector<LoadedMesh::Tile> ObjectReader::read_mesh_surfaces(const TableReader
   request.units = read_units(reader);
   request.uv = read_uv_choice(reader);
   request.uv_set = reader.integer("uv_set", 0, 0, kMaxUvSet);
+  request.part_density = read_part_density(reader);
   MeshRequest key = request;
   key.mesh = std::filesystem::weakly_canonical(key.mesh), key.rest = std::filesystem::weakly_canonical(key.rest);
   for (const auto& [known, tiles] : meshes_)
@@ -149,13 +172,15 @@ std::vector<LoadedMesh::Tile> ObjectReader::read_surfaces(const TableReader& rea
 }
 
 std::vector<Object> ObjectReader::read(const std::string& name, const toml::table& table) {
-  const TableReader reader(table, "object." + name,
-                           {"surface", "radius", "height", "mesh", "rest_mesh", "part", "up", "unit", "uv", "uv_set",
-                            "shader", "parameters", "images", "map", "map_size", "translate", "rotate", "scale"});
+  const TableReader reader(
+      table, "object." + name,
+      {"surface", "radius",   "height",          "mesh",         "rest_mesh", "part",       "up",
+       "unit",    "uv",       "uv_set",          "part_density", "shader",    "parameters", "images",
+       "map",     "map_size", "texels_per_unit", "translate",    "rotate",    "scale"});
   Object object;
   object.name = object.declared_name = name;
   object.transform = read_transform(reader);
-  object.map_size = reader.integer("map_size", 1024, 1, kMaxMapSize);
+  read_map_size(reader, object);
   object.map_path = scene_folder_ / (reader.has("map") ? reader.text("map") : "maps/" + name + ".exr");
   object.shader = read_shader(reader, scene_folder_, device_);
   std::vector<Object> objects;

@@ -38,13 +38,17 @@ struct Light {
   bool shadows = true;
 };
 
+/// Object::map_size that is still to be settled (render/closest_view.h).
+inline constexpr int kAutoMapSize = 0;
+
 struct Object {
   std::string name;  ///< as the scene file calls it, and for a tile of a mesh with ".1001" or the like after it
   std::string declared_name;  ///< as the scene file calls it: the same for all tiles of a mesh
   std::shared_ptr<const Surface> surface;
   std::shared_ptr<const Shader> shader;
   std::filesystem::path map_path;  ///< where its reduction map is, or will be baked to
-  int map_size = 1024;
+  int map_size = 1024;             ///< texels across, or kAutoMapSize
+  float texels_per_unit = 0;       ///< with kAutoMapSize: of length in object space; 0: as the closest view needs
   Transform transform;
 };
 

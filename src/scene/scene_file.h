@@ -31,6 +31,10 @@ class SceneFile {
   /// nearest.
   std::vector<Object> objects(const std::string& name) const;
 
+  /// In place of what the file says; `object` is an index into Scene::objects. kAutoMapSize leaves it open.
+  void set_map_size(std::size_t object, int size) { rest_.objects[object].map_size = size; }
+  void set_texels_per_unit(std::size_t object, float texels) { rest_.objects[object].texels_per_unit = texels; }
+
   /// One line each: what was wrong with the meshes and what was done about it, for people to know; and what their
   /// files leave unsaid.
   const std::vector<std::string>& remarks() const { return remarks_; }

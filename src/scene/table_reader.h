@@ -43,6 +43,7 @@ class TableReader {
   TableReader(const toml::table& table, std::string path) : table_(table), path_(std::move(path)) {}
 
   bool has(std::string_view key) const { return table_.contains(key); }
+  bool has_text(std::string_view key) const { return has(key) && table_.get(key)->is_string(); }
   std::vector<std::string> keys() const;
   /// Dotted, from the root of the file.
   std::string full_key(std::string_view key) const;

@@ -12,6 +12,7 @@
 #include "surface/chart_packing.h"
 #include "surface/face_graph.h"
 #include "surface/flat_chart.h"
+#include "surface/part_density.h"
 
 namespace redmap {
 
@@ -77,6 +78,14 @@ std::vector<FlatChart> flatten_all(const TriangleMesh& mesh, const FaceGraph& gr
   return done;
 }
 
+/// Larger cells for large maps: on a finer grid packing gains nothing and takes minutes.
+int cell_texels(const AtlasOptions& options) {
+  constexpr int kMostCells = 512;  // across; what cells of 4 make of 2048 texels
+  int texels = options.cell_texels;
+  while (options.resolution / texels > kMostCells) texels *= 2;
+  return texels;
+}
+
 void write_uv(const std::vector<FlatChart>& charts, const Packing& packing, int resolution, TriangleMesh& mesh) {
   mesh.uv.clear();
   mesh.uv_triangles.assign(mesh.triangles.size(), {});
@@ -109,15 +118,19 @@ AtlasReport measure(const std::vector<FlatChart>& charts, const TriangleMesh& me
 }  // namespace
 
 AtlasReport unwrap(TriangleMesh& mesh, const AtlasOptions& options) {
-  const FaceGraph graph = make_face_graph(mesh);
+  FaceGraph graph = make_face_graph(mesh);
   check(mesh, graph, options);
+  const std::vector<float> densities = triangle_densities(mesh, options.part_density);
+  cut_between_densities(densities, graph);
   const int count = std::max(options.charts, graph.size() / kFacesPerChart);
   const std::vector<int> labels = grow_charts(graph, count, kCompactness, kRounds);
   std::vector<FlatChart> charts = flatten_all(mesh, graph, connected_parts(graph, labels), options.max_l2_stretch);
   const double area = std::accumulate(graph.areas.begin(), graph.areas.end(), 0.0);
   merge_charts(mesh, graph, kLarge * area / count, std::min(kMergedL2Stretch, options.max_l2_stretch), charts);
+  for (FlatChart& chart : charts)
+    for (Eigen::Vector2d& point : chart.plane) point *= densities[chart.faces.front()];
   const std::optional<Packing> packing =
-      pack_charts(charts, options.resolution, options.cell_texels, options.gutter_texels);
+      pack_charts(charts, options.resolution, cell_texels(options), options.gutter_texels);
   if (!packing)
     throw Error("atlas: {} charts do not fit {} x {} texels in cells of {}: raise the resolution", charts.size(),
                 options.resolution, options.resolution, options.cell_texels);

@@ -7,6 +7,7 @@
 
 #include "surface/atlas.h"
 #include "surface/hash_bytes.h"
+#include "surface/part_density.h"
 
 namespace redmap {
 
@@ -25,7 +26,9 @@ std::uint64_t key_of(const TriangleMesh& mesh, const AtlasOptions& options) {
   std::uint64_t key = hash_bytes(hash_bytes(kMagic, mesh.positions), mesh.triangles);
   key = hash64(key, static_cast<std::uint64_t>(options.charts), static_cast<std::uint64_t>(options.resolution));
   key = hash64(key, static_cast<std::uint64_t>(options.cell_texels), static_cast<std::uint64_t>(options.gutter_texels));
-  return hash_bytes(key, &options.max_l2_stretch, sizeof options.max_l2_stretch);
+  key = hash_bytes(key, &options.max_l2_stretch, sizeof options.max_l2_stretch);
+  if (options.part_density.empty()) return key;
+  return hash_bytes(key, triangle_densities(mesh, options.part_density));
 }
 
 std::string to_bytes(const Header& header, const TriangleMesh& mesh) {

@@ -149,7 +149,8 @@ std::optional<Packing> pack_charts(std::span<const FlatChart> charts, int resolu
                                    int gutter_texels) {
   Packer packer(charts, {resolution / cell_texels, double(cell_texels), double(gutter_texels)});
   double area = 0;
-  for (const FlatChart& chart : charts) area += chart.area;
+  for (const FlatChart& chart : charts)
+    for (const auto& triangle : chart.triangles) area += plane_area(chart, triangle);
   double low = 0, high = resolution / std::sqrt(area);
   std::optional<Packing> best;
   for (int i = 0; i < kHalvings; ++i) {

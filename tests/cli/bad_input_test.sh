@@ -47,7 +47,7 @@ python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["name"] == "no
 
 # Names in old files may be in no encoding that JSON knows.
 printf 'g K\xf6rper\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$folder/latin.obj"
-accepts "L2 stretch" unwrap "$folder/latin.obj" -o "$folder/latin.ply" --json "$folder/latin.json" --resolution 64
+accepts "L2 stretch" unwrap "$folder/latin.obj" -o "$folder/latin.ply" --json "$folder/latin.json" --size 64
 python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["atlas"]["charts"] == 1' "$folder/latin.json" || failures=$((failures + 1))
 
 refuses "subcommand"

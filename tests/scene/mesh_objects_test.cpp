@@ -47,6 +47,21 @@ TEST_F(MeshObjects, EveryTileIsAnObjectWithAMapOfItsOwn) {
   EXPECT_EQ(file.objects("wall.1012").size(), 1u);
 }
 
+TEST_F(MeshObjects, PartsMayHaveMoreTexels_WithNewUvOnly) {
+  const std::string obj = two_squares(false);
+  const SceneFile file = load(obj, "part_density = { left = 3 }");
+  ASSERT_EQ(file.objects("wall").size(), 1u);
+  const TriangleMesh& mesh = *file.objects("wall")[0].surface->mesh();
+  const auto area = [&](std::size_t t) {
+    const auto [a, b, c] = mesh.uv_triangles[t];
+    return cross(mesh.uv[b] - mesh.uv[a], mesh.uv[c] - mesh.uv[a]);
+  };
+  EXPECT_NEAR(area(0) / area(2), 9, 0.1);
+  EXPECT_TRUE(mentions(error_of(obj, "part_density = { left = 3 }\nuv = 'file'"), "made anew"));
+  EXPECT_TRUE(mentions(error_of(obj, "part_density = { middle = 3 }"), "middle"));
+  EXPECT_TRUE(mentions(error_of(obj, "part_density = { left = 0 }"), "above 0"));
+}
+
 TEST_F(MeshObjects, TilesMoveTogether) {
   const SceneFile file = load(two_squares(false), "map = 'other.name.exr'",
                               "[animation]\nframes=11\nturntable={object='wall', degrees_per_frame=2}\n"
