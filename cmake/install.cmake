@@ -13,7 +13,7 @@ set_target_properties(redmap_all PROPERTIES EXPORT_NAME redmap)
 set_target_properties(redmap_options PROPERTIES EXPORT_NAME options)
 target_link_libraries(redmap_all INTERFACE ${REDMAP_TARGETS})
 
-install(TARGETS redmap_all redmap_options ${REDMAP_TARGETS} EXPORT redmapTargets)
+install(TARGETS redmap_all redmap_options redmap_plugin ${REDMAP_TARGETS} EXPORT redmapTargets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/redmap
         FILES_MATCHING PATTERN "*.h" PATTERN "shader/library" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -36,5 +36,12 @@ cmake --build "$work/build"
 mkdir "$work/run"
 for folder in scenes models; do [[ -e $root/$folder ]] && ln -s "$root/$folder" "$work/run/$folder"; done
 (cd "$work/run" && "$work/build/sample")
-"$work/prefix/bin/redmap" --help >/dev/null
-echo "install: the sample of README.md was compiled against the installed library and ran"
+
+# The plug-in of docs/bring_your_shader.md, which the installed program bakes and renders.
+cmake -S docs/examples/plugin -B "$work/plugin" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/configure.log" || { cat "$work/configure.log"; exit 1; }
+cmake --build "$work/plugin"
+cp docs/examples/plugin/candy.toml "$work/plugin/"
+"$work/prefix/bin/redmap" bake "$work/plugin/candy.toml"
+"$work/prefix/bin/redmap" render "$work/plugin/candy.toml" -o "$work/plugin/candy.png"
+echo "install: the sample of README.md and the plug-in were compiled against the installed library and ran"

@@ -145,8 +145,7 @@ void ComputeTask::bind(int binding, const DeviceImage& image) {
   impl_->device->device.updateDescriptorSets(write, {});
 }
 
-void ComputeTask::run(std::span<const std::byte> push_constants, std::uint32_t groups,
-                      std::chrono::milliseconds timeout) {
+void ComputeTask::run(std::span<const std::byte> push_constants, Workgroups groups, std::chrono::milliseconds timeout) {
   on_device(*impl_->device, [&] {
     const vk::raii::CommandBuffer& commands = impl_->commands;
     using Stage = vk::PipelineStageFlagBits;
@@ -155,7 +154,7 @@ void ComputeTask::run(std::span<const std::byte> push_constants, std::uint32_t g
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *impl_->pipeline->layout, 0, *impl_->set, {});
     if (!push_constants.empty())
       commands.pushConstants<std::byte>(*impl_->pipeline->layout, vk::ShaderStageFlagBits::eCompute, 0, push_constants);
-    commands.dispatch(groups, 1, 1);
+    commands.dispatch(groups.x, groups.y, 1);
     const vk::MemoryBarrier written(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
     commands.pipelineBarrier(Stage::eComputeShader, Stage::eHost, {}, written, {}, {});
     commands.end();

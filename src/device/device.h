@@ -116,6 +116,10 @@ class ComputePipeline {
   std::unique_ptr<Impl> impl_;
 };
 
+struct Workgroups {
+  std::uint32_t x = 1, y = 1;
+};
+
 /// What one thread needs to run pipelines, one after the other.
 class ComputeTask {
  public:
@@ -127,9 +131,9 @@ class ComputeTask {
   /// Both must live until run() has returned.
   void bind(int binding, const DeviceBuffer& buffer);
   void bind(int binding, const DeviceImage& image);
-  /// Runs `groups` workgroups and waits for them. Throws DeviceTimeout when they need longer than `timeout`, and Error
+  /// Runs x times y workgroups and waits for them. Throws DeviceTimeout when they need longer than `timeout`, and Error
   /// where the device fails.
-  void run(std::span<const std::byte> push_constants, std::uint32_t groups, std::chrono::milliseconds timeout);
+  void run(std::span<const std::byte> push_constants, Workgroups groups, std::chrono::milliseconds timeout);
 
  private:
   struct Impl;

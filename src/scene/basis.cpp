@@ -24,7 +24,8 @@ ShaderOrigin origin_of(const ShaderInfo& shader, const std::filesystem::path& ma
   ShaderOrigin origin;
   if (shader.file.empty()) return origin;
   const auto from_map = [&](const std::filesystem::path& file) {
-    return std::filesystem::proximate(std::filesystem::absolute(file), std::filesystem::absolute(map_folder))
+    // No folder is the current one.
+    return std::filesystem::proximate(std::filesystem::absolute(file), std::filesystem::absolute(map_folder / "."))
         .generic_string();
   };
   origin.file = from_map(shader.file);

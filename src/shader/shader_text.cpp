@@ -184,7 +184,22 @@ std::string resolve_includes(std::string_view text, const ReadInclude& read, std
   return resolved;
 }
 
+ShaderInfo read_declaration(const Lines& lines, const ShaderTokens& tokens, const std::string& file_name) {
+  ShaderInfo info;
+  info.name = std::filesystem::path(file_name).stem().string();
+  const auto summary = std::ranges::find_if(lines, [](const ShaderLine& l) { return !trimmed(l.comment).empty(); });
+  if (summary != lines.end()) info.summary = trimmed(summary->comment);
+  info.parameters = read_parameters(lines, tokens, file_name);
+  return info;
+}
+
 }  // namespace
+
+ShaderInfo parse_declaration(std::string_view text, const std::string& source_name) {
+  const std::string names[] = {source_name};
+  const Lines lines = read_shader_lines(text, names);
+  return read_declaration(lines, read_shader_tokens(lines), source_name);
+}
 
 ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name) {
   const std::string names[] = {std::string(file_name)};
@@ -196,13 +211,8 @@ ShaderInfo parse_shader_text(std::string_view text, std::span<const std::string>
   const Lines lines = read_shader_lines(text, source_names);
   const ShaderTokens tokens = read_shader_tokens(lines);
 
-  ShaderInfo info;
-  info.name = std::filesystem::path(file_name).stem().string();
-  const auto summary = std::ranges::find_if(lines, [](const ShaderLine& l) { return !trimmed(l.comment).empty(); });
-  if (summary != lines.end()) info.summary = trimmed(summary->comment);
-  info.parameters = read_parameters(lines, tokens, file_name);
+  ShaderInfo info = read_declaration(lines, tokens, file_name);
   info.images = read_images(lines, tokens);
-
   const bool split = defines(tokens, "Pattern", "pattern", "Surface");
   info.black_box = defines(tokens, "vec3", "radiance", "Surface");
   if (split == info.black_box)

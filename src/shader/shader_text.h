@@ -19,6 +19,9 @@ ShaderInfo parse_shader_text(std::string_view text, std::string_view file_name);
 /// The same for a text put together from several files (see ShaderSources).
 ShaderInfo parse_shader_text(std::string_view text, std::span<const std::string> source_names);
 
+/// Only the first comment line and `struct Parameters`, of a text that has no functions.
+ShaderInfo parse_declaration(std::string_view text, const std::string& source_name);
+
 /// `text` with every `#include "NAME"` line replaced by `read(NAME)`, and so on inside that. An include that leads
 /// back to itself throws Error; a file that is included twice must guard itself.
 std::string resolve_includes(std::string_view text, const std::function<std::string(std::string_view name)>& read);

@@ -84,13 +84,29 @@ ShaderProgram::OnDevice& ShaderProgram::on_device() const {
 void ShaderProgram::run(Stage stage, StageCall call, const InputRows& in, std::span<std::byte> patterns,
                         std::span<float* const> out) const {
   OnDevice& on = on_device();
+  call.in_stride = static_cast<std::uint32_t>(in.count);
+  // A CPU reads a pattern once for all pairs; a GPU is better off with more invocations.
+  if (on.device->info().software && !one_pair_each_) call.pairs_each = call.pairs;
+  std::uint32_t status = dispatch(on, stage, call, in, patterns, out);
+  if (status != kAllEnded && call.pairs_each > 1) {
+    // All pairs together may just have been too many.
+    one_pair_each_ = true;
+    call.pairs_each = 1;
+    status = dispatch(on, stage, call, in, patterns, out);
+  }
+  if (status != kAllEnded)
+    throw FunctionError(status / kStatusFunctions, status_function(status % kStatusFunctions),
+                        fmt::format("expected loops that end, found one that had not after {} rounds", kMostRounds));
+}
+
+std::uint32_t ShaderProgram::dispatch(OnDevice& on, Stage stage, const StageCall& call, const InputRows& in,
+                                      std::span<std::byte> patterns, std::span<float* const> out) const {
   Lease lease(on);
   Workspace& workspace = *lease;
   std::unique_ptr<ComputeTask>& task = workspace.tasks[static_cast<std::size_t>(stage)];
   if (!task) task = std::make_unique<ComputeTask>(*on.pipelines[static_cast<std::size_t>(stage)]);
 
   const std::size_t row_bytes = call.places * sizeof(float), in_bytes = in.count * sizeof(float);
-  call.in_stride = static_cast<std::uint32_t>(in.count);
   const std::size_t sizes[kStageBuffers] = {parameters_.size(), in.rows.size() * in_bytes, patterns.size(),
                                             out.size() * row_bytes, sizeof kAllEnded};
   for (int b = 0; b < kStageBuffers; ++b)
@@ -104,16 +120,15 @@ void ShaderProgram::run(Stage stage, StageCall call, const InputRows& in, std::s
   if (stage != Stage::kBind) std::memcpy(data(kPatternBuffer), patterns.data(), patterns.size());
   std::memcpy(data(kStatusBuffer), &kAllEnded, sizeof kAllEnded);
 
-  const std::uint32_t groups = (call.places * call.pairs + kGroupSize - 1) / kGroupSize;
-  task->run(std::as_bytes(std::span(&call, 1)), groups, kTimeout);
+  const std::uint32_t blocks = (call.pairs + call.pairs_each - 1) / call.pairs_each;
+  const std::uint32_t groups = (call.places + kGroupSize - 1) / kGroupSize;
+  task->run(std::as_bytes(std::span(&call, 1)), {groups, blocks}, kTimeout);
 
   std::uint32_t status = 0;
   std::memcpy(&status, data(kStatusBuffer), sizeof status);
-  if (status != kAllEnded)
-    throw StageError(status / kStatusFunctions % call.places, status_function(status % kStatusFunctions),
-                     fmt::format("expected loops that end, found one that had not after {} rounds", kMostRounds));
   if (stage == Stage::kBind) std::memcpy(patterns.data(), data(kPatternBuffer), patterns.size());
   for (std::size_t r = 0; r < out.size(); ++r) std::memcpy(out[r], data(kOutBuffer) + r * row_bytes, row_bytes);
+  return status;
 }
 
 }  // namespace redmap

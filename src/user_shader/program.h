@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <mutex>
 #include <span>
 
 #include "base/image.h"
 #include "device/device.h"
+#include "user_shader/function_error.h"
 #include "user_shader/stages.h"
 
 namespace redmap {
@@ -16,17 +18,6 @@ namespace redmap {
 struct InputRows {
   std::vector<const float*> rows;
   std::size_t count = 0;
-};
-
-/// Something went wrong in invocation `place` of a call, in a function of the shader.
-class StageError : public Error {
- public:
-  StageError(std::size_t place, std::string_view function, const std::string& what)
-      : Error("{}(): {}", function, what), place_(place) {}
-  std::size_t place() const { return place_; }
-
- private:
-  std::size_t place_;
 };
 
 class ShaderProgram {
@@ -39,7 +30,7 @@ class ShaderProgram {
   /// Bytes a bound pattern takes.
   std::size_t pattern_size() const { return pattern_size_; }
   /// One dispatch. Strides and what follows from the rows are filled in. `patterns` are read, or written by
-  /// Stage::kBind. Safe to call from several threads. Throws StageError on a function that does not end, Error where
+  /// Stage::kBind. Safe to call from several threads. Throws FunctionError on a function that does not end, Error where
   /// the device fails.
   void run(Stage stage, StageCall call, const InputRows& in, std::span<std::byte> patterns,
            std::span<float* const> out) const;
@@ -49,12 +40,16 @@ class ShaderProgram {
   struct OnDevice;
   class Lease;
   OnDevice& on_device() const;
+  /// Returns the status (stages.h).
+  std::uint32_t dispatch(OnDevice& on, Stage stage, const StageCall& call, const InputRows& in,
+                         std::span<std::byte> patterns, std::span<float* const> out) const;
 
   std::vector<std::uint32_t> spirv_;
   std::vector<std::byte> parameters_;
   std::vector<Image> images_;
   std::string device_;
   std::size_t pattern_size_;
+  mutable std::atomic<bool> one_pair_each_ = false;  ///< all pairs of a call in one invocation were too many
   mutable std::mutex mutex_;
   mutable std::unique_ptr<OnDevice> on_device_;  ///< made when the shader first runs
 };

@@ -5,7 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/nearest.h"
-#include "user_shader/user_shader.h"
+#include "user_shader/plugin_shader.h"
 
 namespace redmap {
 namespace {
@@ -26,9 +26,12 @@ ShaderSources read_shader_sources(const std::filesystem::path& file) {
   return resolve_sources({file.lexically_normal().string(), read_file(file)}, read_include);
 }
 
-bool is_shader_file(const std::string& shader) { return shader.ends_with(".glsl"); }
+bool is_plugin(const std::filesystem::path& file) { return file.extension() == ".so"; }
+
+bool is_shader_file(const std::string& shader) { return shader.ends_with(".glsl") || is_plugin(shader); }
 
 ShaderInfo user_shader_info(const std::filesystem::path& file, const std::string& name) {
+  if (is_plugin(file)) return plugin_info(file, name);
   const ShaderSources sources = read_shader_sources(file);
   require_own_world(sources.text, sources.names);
   ShaderInfo info = parse_shader_text(sources.text, sources.names);

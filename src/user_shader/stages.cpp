@@ -19,6 +19,7 @@ layout(std430, binding = 4) buffer RedmapStatus { uint redmap_status; };
 layout(push_constant) uniform RedmapCall {
   uint redmap_places;
   uint redmap_pairs;
+  uint redmap_pairs_each;
   uint redmap_in_stride;
   uint redmap_pairing;
   float redmap_time;
@@ -101,19 +102,29 @@ void redmap_bind(uint redmap_i) {
 #endif
 }
 
-// Neighbours have the same pair and patterns side by side.
-void redmap_radiance(uint redmap_i, uint redmap_block) {
+// Some pairs, one after the other: the pattern is read once.
+void redmap_radiance(uint redmap_i, uint redmap_first) {
+  uint redmap_last = min(redmap_first + redmap_pairs_each, redmap_pairs);
   REDMAP_BOUND redmap_m = redmap_patterns[redmap_pairing == 1u ? 0u : redmap_i];
-  uint redmap_pair = redmap_pairing == 2u ? redmap_block : redmap_i;
-  vec3 redmap_l = redmap_load3(0u, redmap_pair);
-  vec3 redmap_v = redmap_load3(3u, redmap_pair);
+  for (uint redmap_block = redmap_first; redmap_block < redmap_last; redmap_block++) {
+    // Two ways, since a CPU reads what is the same for all neighbours only once.
+    vec3 redmap_l, redmap_v;
+    if (redmap_pairing == 2u) {
+      redmap_l = redmap_load3(0u, redmap_block);
+      redmap_v = redmap_load3(3u, redmap_block);
+    } else {
+      redmap_l = redmap_load3(0u, redmap_i);
+      redmap_v = redmap_load3(3u, redmap_i);
+    }
 #ifdef REDMAP_BLACK_BOX
-  vec3 redmap_value = radiance(redmap_m.at, redmap_parameters, redmap_to_object(redmap_m, redmap_l),
-                               redmap_to_object(redmap_m, redmap_v));
+    vec3 redmap_value = radiance(redmap_m.at, redmap_parameters, redmap_to_object(redmap_m, redmap_l),
+                                 redmap_to_object(redmap_m, redmap_v));
 #else
-  vec3 redmap_value = radiance(redmap_m, redmap_l, redmap_v);
+    vec3 redmap_value = radiance(redmap_m, redmap_l, redmap_v);
 #endif
-  if (redmap_ended(2u)) redmap_store3(3u * redmap_block, redmap_i, redmap_value);
+    if (!redmap_ended(2u)) return;
+    redmap_store3(3u * redmap_block, redmap_i, redmap_value);
+  }
 }
 
 void redmap_constants(uint redmap_i) {
@@ -133,13 +144,13 @@ void redmap_constants(uint redmap_i) {
 }
 
 void main() {
-  uint redmap_i = gl_GlobalInvocationID.x % redmap_places;
-  uint redmap_block = gl_GlobalInvocationID.x / redmap_places;
-  if (redmap_block >= redmap_pairs || !redmap_goes_on()) return;
+  uint redmap_i = gl_GlobalInvocationID.x;
+  uint redmap_first = gl_WorkGroupID.y * redmap_pairs_each;
+  if (redmap_i >= redmap_places || !redmap_goes_on()) return;
   if (redmap_stage == 0u)
     redmap_bind(redmap_i);
   else if (redmap_stage == 1u)
-    redmap_radiance(redmap_i, redmap_block);
+    redmap_radiance(redmap_i, redmap_first);
   else
     redmap_constants(redmap_i);
 }

@@ -12,7 +12,7 @@ namespace redmap {
 
 enum class Stage : std::uint32_t {
   kBind,      ///< 11 rows of places in; patterns out, and 3 rows of shading normals for shaders that declare them
-  kRadiance,  ///< patterns and 6 rows of directions in; 3 rows a pair out, an invocation for each of their values
+  kRadiance,  ///< patterns and 6 rows of directions in; 3 rows a pair out
   kConstants  ///< patterns in; kConstantRows out
 };
 inline constexpr int kStages = 3;
@@ -25,8 +25,9 @@ enum class Pairing : std::uint32_t { kEach, kOnePattern, kAll };
 
 /// Push constants.
 struct StageCall {
-  std::uint32_t places = 0;  ///< values in a row that is written
-  std::uint32_t pairs = 1;   ///< for each of them; more than one with Pairing::kAll only
+  std::uint32_t places = 0;      ///< values in a row that is written
+  std::uint32_t pairs = 1;       ///< for each of them; more than one with Pairing::kAll only
+  std::uint32_t pairs_each = 1;  ///< of them by one invocation, one after the other
   std::uint32_t in_stride = 0;
   Pairing pairing = Pairing::kEach;
   float time = 0;
@@ -43,7 +44,8 @@ inline constexpr std::uint32_t kStatusFunctions = 8;
 std::string_view status_function(std::uint32_t function);
 
 /// A shader that goes round its loops more often than this for one place and pair does not end. llvmpipe leaves loops,
-/// in silence, after 65535 rounds of eight neighbours, each of which may be in another loop: this is well below.
+/// in silence, after 65535 rounds of eight neighbouring invocations, each of which may be in another loop: an
+/// invocation that stays below this is well below that.
 inline constexpr std::uint32_t kMostRounds = 1u << 14;
 inline constexpr const char* kLoopGuard = "redmap_goes_on";
 inline constexpr const char* kPatternBlock = "RedmapPatterns";

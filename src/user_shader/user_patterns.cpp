@@ -1,32 +1,12 @@
 #include "user_shader/user_patterns.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "base/error.h"
 
 namespace redmap {
 namespace {
 
 /// Most invocations of one dispatch: the results for all direction samples of a bake stay under 8 MB.
 constexpr std::size_t kMostPlaces = 16384;
-/// Of the length of a shading normal: what normalize() leaves, and a little for long chains of rotations.
-constexpr float kUnitTolerance = 1e-3f;
-
-void require_finite(std::span<float* const> rows, std::size_t count, std::string_view function) {
-  for (const float* row : rows)
-    for (std::size_t i = 0; i < count; ++i)
-      if (!std::isfinite(row[i]))
-        throw StageError(i, function, fmt::format("expected finite numbers, found {}", row[i]));
-}
-
-void require_unit(std::span<float* const> rows, std::size_t count, std::string_view function) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const float length_found = length(Vec3{rows[0][i], rows[1][i], rows[2][i]});
-    if (!(std::abs(length_found - 1) < kUnitTolerance))
-      throw StageError(i, function, fmt::format("expected a unit vector, found one of length {:g}", length_found));
-  }
-}
 
 template <int N>
 void append_rows(const Planes<N>& planes, std::size_t first, InputRows& in) {
@@ -82,8 +62,8 @@ class UserPatterns final : public BoundPatterns {
       try {
         shader_->program.run(Stage::kRadiance, call, directions(pairs, first, count), patterns(pattern, 1), rows);
         require_finite(rows, count, "radiance");
-      } catch (const StageError& error) {
-        shader_->fail(error, position_.get(pattern));
+      } catch (const FunctionError& error) {
+        fail_at(error, shader_->info.name, position_.get(pattern));
       }
     });
   }
@@ -152,8 +132,8 @@ class UserPatterns final : public BoundPatterns {
   void check(std::size_t first, const Body& body) const {
     try {
       body();
-    } catch (const StageError& error) {
-      shader_->fail(error, position_.get(first + error.place()));
+    } catch (const FunctionError& error) {
+      fail_at(error, shader_->info.name, position_.get(first + error.place()));
     }
   }
   void run(Stage stage, StageCall call, const InputRows& in, std::size_t first, std::size_t count,
@@ -179,11 +159,6 @@ class UserPatterns final : public BoundPatterns {
 };
 
 }  // namespace
-
-void UserShaderParts::fail(const StageError& error, Vec3 p) const {
-  throw Error("shader \"{}\": {}, at position ({:g}, {:g}, {:g}) in object space", info.name, error.what(), p.x, p.y,
-              p.z);
-}
 
 std::unique_ptr<BoundPatterns> bind_user_patterns(std::shared_ptr<const UserShaderParts> shader,
                                                   const SurfacePoints& points) {

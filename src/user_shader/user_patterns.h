@@ -13,9 +13,6 @@ struct UserShaderParts {
   ShaderInfo info;
   ParameterValues values;
   ShaderProgram program;
-
-  /// Throws `error` with the shader's name and the place.
-  [[noreturn]] void fail(const StageError& error, Vec3 position) const;
 };
 
 /// The patterns of `shader` at `points`. Throws Error, now and later, where a function does not end or returns

@@ -12,6 +12,7 @@
 #include "base/srgb.h"
 #include "device/glsl_compiler.h"
 #include "shader/parameter_values.h"
+#include "user_shader/plugin_shader.h"
 #include "user_shader/shader_file.h"
 #include "user_shader/user_patterns.h"
 
@@ -86,6 +87,7 @@ std::uint64_t hash_of(const ShaderSources& text, const ShaderInfo& info) {
 
 std::shared_ptr<const Shader> make_user_shader(const std::filesystem::path& file, const std::string& name,
                                                const UserShaderSettings& settings) {
+  if (is_plugin(file)) return make_plugin_shader(file, name, settings);
   ShaderInfo info = user_shader_info(file, name);
   ParameterValues values = parameter_values(info, settings.parameters);
   set_images(settings, info);

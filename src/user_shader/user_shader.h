@@ -1,4 +1,5 @@
-// Shaders of the user's own: a GLSL file becomes a Shader like the library's (docs/bring_your_shader.md).
+// Shaders of the user's own: a file becomes a Shader like the library's (docs/bring_your_shader.md). It is a text in
+// GLSL, NAME.glsl, or a plug-in (plugin.h), NAME.so, which runs as it is.
 //
 // The text may use all of GLSL 4.50. It is compiled when it is loaded, and runs on a Vulkan device, which is opened
 // when the shader first runs.

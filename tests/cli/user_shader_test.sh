@@ -91,7 +91,8 @@ refuses 'must be in [0, 2], found 3' bake scene.toml -D ball.a=3
 refuses 'expected images to be none, found "wood"' bake scene.toml -D object.ball.images.wood=examples/painting.png
 refuses 'found no file' bake scene.toml -D object.ball.images.wood=nowhere.png
 refuses 'device "no such thing": expected the number or part of the name of one of' bake scene.toml --device "no such thing"
-runs bake scene.toml
+runs bake scene.toml -D object.ball.map=here.exr
+runs inspect here.exr --pictures pictures
 [ ! -e other.exr ] || fail "expected no picture of what was refused"
 
 # Without Vulkan, only such shaders cannot run.

@@ -52,7 +52,7 @@ std::vector<float> run(const Device& device, const ComputePipeline& pipeline, fl
   ComputeTask task(pipeline);
   task.bind(0, in), task.bind(1, out);
   const Push push{factor, count};
-  task.run(std::as_bytes(std::span(&push, 1)), count / kGroup, timeout);
+  task.run(std::as_bytes(std::span(&push, 1)), {count / kGroup}, timeout);
   std::memcpy(values.data(), out.data(), out.size());
   return values;
 }
@@ -132,7 +132,8 @@ TEST(Device, WorkThatDoesNotEndInTime_IsGivenUp_AndAnotherDeviceCanBeOpened) {
   {
     const auto device = Device::open();
     const ComputePipeline pipeline(*device, compile(slow), kInputs);
-    EXPECT_THROW(run(*device, pipeline, 1, kGroup, milliseconds(1)), DeviceTimeout);
+    // llvmpipe leaves a loop after 65535 rounds: many groups take their time all the same.
+    EXPECT_THROW(run(*device, pipeline, 1, 4096 * kGroup, milliseconds(1)), DeviceTimeout);
     EXPECT_THROW(run(*device, pipeline, 1, kGroup, milliseconds(1)), Error);
   }
   const auto device = Device::open();
@@ -157,7 +158,7 @@ TEST(Device, SamplesAPictureBilinearlyFromItsLowerLeftCornerAndRepeatsIt) {
   ComputeTask task(pipeline);
   task.bind(0, in), task.bind(1, out), task.bind(2, on_device);
   const Push push{};
-  task.run(std::as_bytes(std::span(&push, 1)), 1, kSoon);
+  task.run(std::as_bytes(std::span(&push, 1)), {}, kSoon);
   float found[6];
   std::memcpy(found, out.data(), sizeof found);
   const float expected[6] = {1, 0, 1, 0, 0.5f, 0.5f};

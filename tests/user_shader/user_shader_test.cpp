@@ -236,6 +236,20 @@ TEST_F(UserShader, ThatDoesNotEnd_IsStoppedAndNamed) {
   EXPECT_EQ(in_radiance.substr(0, 40), "shader \"mine.glsl\": radiance(): expected");
 }
 
+// 3000 rounds for each of 34 pairs are too many for one invocation, and still end.
+TEST_F(UserShader, WithLongLoops_IsNotTakenForEndless) {
+  const auto bound = make(kParameters + "struct Pattern { vec3 c; };\n" + kPattern +
+                          "vec3 radiance(Pattern m, vec3 l, vec3 v) {\n"
+                          "  float x = 0.0; for (int i = 0; i < 3000; i++) x += l.z; return vec3(x); }\n")
+                         ->bind(points_);
+  const DirectionPairs pairs = test::random_pairs(34, 3);
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    LaneVector<float> out;
+    bound->radiance_all(pairs, out);
+    for (std::size_t p = 0; p < 34; ++p) ASSERT_NEAR(out[p * 3 * padded(100) + 7], 3000 * pairs.to_light[2][p], 1) << p;
+  }
+}
+
 TEST_F(UserShader, ThatReturnsNoNumbers_IsNamedWithFunctionAndPlace) {
   const std::string radiance_nan =
       complaint(kParameters + "struct Pattern { vec3 c; };\n" + kPattern +
