@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "surface/mesh_units.h"
@@ -47,6 +48,8 @@ TriangleMesh read_mesh_input(const MeshInput& input, nlohmann::json& json) {
   TriangleMesh mesh = read_mesh(input.path, &report);
   if (report.zero_area_triangles > 0)
     fmt::print("{}: dropped {} zero-area triangles\n", input.path, report.zero_area_triangles);
+  for (const std::string& line : report.not_applied) fmt::print(stderr, "{}\n", line);
+  json["not_applied"] = report.not_applied;
   json["zero_area_triangles"] = report.zero_area_triangles;
 
   MeshUnits units;

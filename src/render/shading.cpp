@@ -75,10 +75,19 @@ SurfacePoints surface_points(std::span<const SurfaceHit> hits, std::span<const s
   return points;
 }
 
+/// A direction at a hit, from the surface at rest to its pose.
+Vec3 carried_by_pose(const SurfaceHit& hit, bool turned, Vec3 direction) {
+  const Vec3 rest_normal = turned ? -hit.rest.normal : hit.rest.normal;
+  if (rest_normal == hit.normal && hit.rest.tangent == hit.tangent) return direction;
+  const Frame rest = make_frame(rest_normal, hit.rest.tangent), posed = make_frame(hit.normal, hit.tangent);
+  return posed.to_world(rest.to_local(direction));
+}
+
 /// Shading frames of shaders that perturb normals: the hits' frames with another z.
 std::vector<Frame> perturbed_frames(const ShadingBatch& batch, const Planes<3>& normals) {
   std::vector<Frame> frames(batch.size());
-  for (std::size_t i = 0; i < frames.size(); ++i) frames[i] = make_frame(normals.get(i), batch.frames[i].x);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    frames[i] = make_frame(carried_by_pose(batch.hits[i], batch.turned[i] != 0, normals.get(i)), batch.frames[i].x);
   return frames;
 }
 

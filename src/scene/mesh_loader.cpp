@@ -97,6 +97,7 @@ LoadedMesh load_mesh(const MeshRequest& request, const std::filesystem::path& ca
   Shapes shapes = read_shapes(request, report);
   const std::string name = request.mesh.filename().string();
   loaded.assumptions.push_back(describe_units(request.mesh, request.units));
+  loaded.remarks = report.not_applied;
   if (report.zero_area_triangles > 0)
     loaded.assumptions.push_back(fmt::format("{}: dropped {} zero-area triangles", name, report.zero_area_triangles));
   if (!request.part.empty()) keep(shapes, select_part(shapes.rest, request.part));

@@ -18,4 +18,8 @@ namespace tinygltf = ::redmap_tinygltf;
 /// Reads the file with its buffers, and without its pictures. Throws Error unless it is sound glTF 2.
 tinygltf::Model load_gltf(const std::filesystem::path& path, bool binary);
 
+/// Replaces sparse accessors by plain ones with the same values, in buffers of their own. Throws Error where they do
+/// not fit the file.
+void fill_sparse_accessors(const std::filesystem::path& path, tinygltf::Model& model);
+
 }  // namespace redmap

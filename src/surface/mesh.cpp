@@ -73,9 +73,11 @@ std::vector<std::uint8_t> triangles_with_area(const TriangleMesh& mesh) {
 }
 
 /// As the file has it, checked.
-TriangleMesh read_whole(const std::filesystem::path& path, const std::vector<Vec3>* shape, int uv_set) {
+TriangleMesh read_whole(const std::filesystem::path& path, const std::vector<Vec3>* shape, int uv_set,
+                        MeshReport* report) {
   const std::string extension = lower_extension(path);
   TriangleMesh mesh;
+  std::vector<std::string> not_applied;
   if (extension == ".obj")
     mesh = read_obj(path, shape);
   else if (extension == ".ply")
@@ -83,9 +85,10 @@ TriangleMesh read_whole(const std::filesystem::path& path, const std::vector<Vec
   else if (extension == ".stl")
     mesh = read_stl(path);
   else if (extension == ".gltf" || extension == ".glb")
-    mesh = read_gltf(path, extension == ".glb", uv_set);
+    mesh = read_gltf(path, extension == ".glb", uv_set, not_applied);
   else
     throw Error("{}: expected a mesh as .obj, .ply, .stl, .gltf or .glb, found \"{}\"", path.string(), extension);
+  if (report) std::move(not_applied.begin(), not_applied.end(), std::back_inserter(report->not_applied));
   check(path, mesh);
   const bool is_named = mesh.parts.size() > 1 ||
                         (mesh.parts.size() == 1 && !(mesh.parts[0].group.empty() && mesh.parts[0].material.empty()));
@@ -125,7 +128,7 @@ std::string read_bytes(const std::filesystem::path& path) {
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, MeshReport* report, int uv_set) {
-  TriangleMesh mesh = read_whole(path, nullptr, uv_set);
+  TriangleMesh mesh = read_whole(path, nullptr, uv_set, report);
   keep_triangles(mesh, check_areas(path, mesh, report));
   return mesh;
 }
@@ -133,8 +136,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path, MeshReport* report, in
 PosedMesh read_posed_mesh(const std::filesystem::path& rest, const std::filesystem::path& posed, MeshReport* report,
                           int uv_set) {
   PosedMesh mesh;
-  mesh.rest = read_whole(rest, nullptr, uv_set);
-  mesh.posed = read_whole(posed, &mesh.rest.positions, uv_set);
+  mesh.rest = read_whole(rest, nullptr, uv_set, report);
+  mesh.posed = read_whole(posed, &mesh.rest.positions, uv_set, report);
   const auto differ = [&](const char* what, std::size_t expected, std::size_t found) {
     throw Error("{}: expected {} {} as in the mesh at rest, {}, found {}", posed.string(), expected, what,
                 rest.string(), found);

@@ -37,6 +37,7 @@ struct TriangleMesh {
 
 struct MeshReport {
   std::size_t zero_area_triangles = 0;
+  std::vector<std::string> not_applied;  ///< one line each: what the file has and reading it passes over
 };
 
 /// Reads OBJ, PLY, STL, glTF or GLB by extension. Drops zero-area triangles (their count is returned through `report`

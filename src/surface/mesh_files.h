@@ -14,8 +14,9 @@ namespace redmap {
 TriangleMesh read_obj(const std::filesystem::path& path, const std::vector<Vec3>* shape = nullptr);
 TriangleMesh read_ply(const std::filesystem::path& path, const std::vector<Vec3>* shape = nullptr);
 TriangleMesh read_stl(const std::filesystem::path& path);
-/// glTF, or GLB where `binary`; uv from TEXCOORD_`uv_set`.
-TriangleMesh read_gltf(const std::filesystem::path& path, bool binary, int uv_set);
+/// glTF, or GLB where `binary`; uv from TEXCOORD_`uv_set`. Adds a line to `not_applied` for skins and for morphs.
+TriangleMesh read_gltf(const std::filesystem::path& path, bool binary, int uv_set,
+                       std::vector<std::string>& not_applied);
 
 /// The extension with its dot, in lower case.
 std::string lower_extension(const std::filesystem::path& path);

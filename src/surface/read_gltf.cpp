@@ -95,7 +95,6 @@ class GltfMesh {
 
   Values values_of(int accessor_index, int components) const {
     const tinygltf::Accessor& accessor = at(model_.accessors, accessor_index, "accessor");
-    if (accessor.sparse.isSparse) fail(fmt::format("accessor {}: sparse accessors are not supported", accessor_index));
     const tinygltf::BufferView& view = at(model_.bufferViews, accessor.bufferView, "buffer view");
     const std::vector<unsigned char>& bytes = at(model_.buffers, view.buffer, "buffer").data;
     if (tinygltf::GetNumComponentsInType(accessor.type) != components)
@@ -288,16 +287,38 @@ class GltfMesh {
   bool has_uv_ = true, has_normals_ = true;
 };
 
+/// What would deform the mesh.
+void note_deformers(const std::filesystem::path& path, const tinygltf::Model& model,
+                    std::vector<std::string>& not_applied) {
+  const auto skinned = std::count_if(model.nodes.begin(), model.nodes.end(),
+                                     [](const tinygltf::Node& n) { return n.mesh >= 0 && n.skin >= 0; });
+  const auto has_targets = [](const tinygltf::Primitive& p) { return !p.targets.empty(); };
+  const auto morphed = std::count_if(model.meshes.begin(), model.meshes.end(), [&](const tinygltf::Mesh& m) {
+    return std::any_of(m.primitives.begin(), m.primitives.end(), has_targets);
+  });
+  const std::string name = path.filename().string();
+  if (skinned > 0)
+    not_applied.push_back(
+        fmt::format("{}: the skins of {} nodes are not applied: read as it is stored", name, skinned));
+  if (morphed > 0)
+    not_applied.push_back(
+        fmt::format("{}: the morphs of {} meshes are not applied: read as it is stored", name, morphed));
+}
+
 }  // namespace
 
-TriangleMesh read_gltf(const std::filesystem::path& path, bool binary, int uv_set) {
-  const tinygltf::Model model = load_gltf(path, binary);
+TriangleMesh read_gltf(const std::filesystem::path& path, bool binary, int uv_set,
+                       std::vector<std::string>& not_applied) {
+  tinygltf::Model model = load_gltf(path, binary);
+  fill_sparse_accessors(path, model);
   for (const std::string& extension : model.extensionsRequired)
     if (std::find(std::begin(kKnownExtensions), std::end(kKnownExtensions), extension) == std::end(kKnownExtensions) &&
         !extension.starts_with("KHR_materials_") && !extension.starts_with("KHR_technique"))
       throw Error("{}: expected glTF 2.0 with extensions that redmap knows, found that it requires {}", path.string(),
                   extension);
-  return GltfMesh(path, model, uv_set).read();
+  TriangleMesh mesh = GltfMesh(path, model, uv_set).read();
+  note_deformers(path, model, not_applied);
+  return mesh;
 }
 
 }  // namespace redmap

@@ -4,8 +4,12 @@
 #include "bake/bake.h"
 #include "bake/baselines.h"
 #include "base/error.h"
+#include "render/placement.h"
 #include "render/shading.h"
 #include "render_test_support.h"
+#include "surface/atlas.h"
+#include "surface/mesh.h"
+#include "surface/shapes.h"
 
 namespace redmap {
 namespace {
@@ -61,6 +65,7 @@ TEST(ShaderShading, TakesTheCosineToTheShadersNormal_NotToTheSurfaces) {
     SurfaceHit hit{};
     hit.normal = hit.geometric_normal = {0, 0, 1};
     hit.tangent = {1, 0, 0};
+    hit.rest = {hit.position, hit.normal, hit.tangent};
     batch.hits.push_back(hit);
     batch.turned.push_back(0);
     batch.frames.push_back(make_frame(hit.normal, hit.tangent));
@@ -77,6 +82,27 @@ TEST(ShaderShading, TakesTheCosineToTheShadersNormal_NotToTheSurfaces) {
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(shaded.radiance[c][i], static_cast<float>(c + 1) * dot(leaning, batch.lights[0].to_light[i]) / kPi,
                   1e-6f);
+}
+
+TEST(ShaderShading, BumpsGoWithThePose_AsIfTheObjectHadTurned) {
+  // The same turn, once by the object's transform and once by its vertices.
+  TriangleMesh rest = bumpy_sphere(4);
+  unwrap(rest, {.resolution = 256});
+  const auto shader = make_library_shader("hammered_metal", {});
+  Scene turned = test::sphere_scene(shader, {0.5f, 0.3f, 1}, 48), posed = turned;
+  turned.objects[0].transform.rotate_degrees = {40, 70, 20};
+  TriangleMesh pose = rest;
+  for (Vec3& p : pose.positions) p = make_placement(turned.objects[0].transform).point_world(p);
+  turned.objects[0].surface = make_mesh_surface(rest);
+  posed.objects[0].surface = make_posed_surface({rest, pose});
+  RenderOptions options;
+  options.method = Method::kOriginal;
+  const Image a = Renderer(turned, options, {ObjectData{}}).render(turned, 1).image;
+  const Image b = Renderer(posed, options, {ObjectData{}}).render(posed, 1).image;
+  double difference = 0, power = 0;
+  for (std::size_t i = 0; i < a.data.size(); ++i)
+    difference += std::pow(a.data[i] - b.data[i], 2), power += std::pow(a.data[i], 2);
+  EXPECT_LT(std::sqrt(difference / power), 0.02);
 }
 
 TEST(ParametersShading, RefusesShadersThatPerturbNormals_WithoutTheirSlopes) {

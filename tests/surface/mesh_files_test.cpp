@@ -206,6 +206,42 @@ TEST(MeshFiles, HostileGltfIsRefused) {
     EXPECT_NE(error_of(folder.write("cut.glb", glb.substr(0, size))), "no error") << size;
 }
 
+/// A triangle whose second vertex is replaced by (5, 6, 7), with a skin and a morph that are not applied. `index`: of
+/// the vertex, as the file says it; `base`: of the buffer view with the others, or none.
+Gltf sparse_triangle(int index, bool has_base) {
+  Gltf gltf;
+  for (const float value : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) append(gltf.buffer, value);
+  append(gltf.buffer, static_cast<std::uint16_t>(index)), append(gltf.buffer, std::uint16_t{0});
+  for (const float value : {5.0f, 6.0f, 7.0f}) append(gltf.buffer, value);
+  gltf.json = std::string(R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"skin":0}],)") +
+              R"("skins":[{"joints":[0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},)" +
+              R"("targets":[{"POSITION":0}]}]}],"buffers":[{"uri":"triangle.bin","byteLength":52}],)" +
+              R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":4},)" +
+              R"({"buffer":0,"byteOffset":40,"byteLength":12}],"accessors":[{)" +
+              (has_base ? R"("bufferView":0,)" : "") +
+              R"("componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,)" +
+              R"("indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":2}}}]})";
+  return gltf;
+}
+
+TEST(MeshFiles, SparseGltfAccessorsReplaceSomeValues_AndSkinsAndMorphsAreNamed) {
+  const TemporaryFolder folder;
+  const auto read = [&](const Gltf& gltf, MeshReport* report) {
+    folder.write("triangle.bin", gltf.buffer);
+    return read_mesh(folder.write("t.gltf", gltf.json), report);
+  };
+  MeshReport report;
+  EXPECT_EQ(read(sparse_triangle(1, true), &report).positions, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 1, 0}}));
+  ASSERT_EQ(report.not_applied.size(), 2u);
+  EXPECT_THAT(report.not_applied[0], HasSubstr("t.gltf: the skins of 1 nodes are not applied"));
+  EXPECT_THAT(report.not_applied[1], HasSubstr("morphs"));
+  EXPECT_THAT(error_of(folder.write("t.gltf", sparse_triangle(1, false).json)), HasSubstr("zero-area"));
+  folder.write("triangle.bin", sparse_triangle(3, true).buffer);
+  EXPECT_THAT(error_of(folder.write("t.gltf", sparse_triangle(3, true).json)), HasSubstr("indices below 3, found 3"));
+  folder.write("triangle.bin", std::string(45, 'x'));
+  EXPECT_NE(error_of(folder / "t.gltf"), "no error");
+}
+
 TEST(MeshFiles, HostileObjIsRefused_WithItsLine) {
   const TemporaryFolder folder;
   const auto error_for = [&](const std::string& rest) {
