@@ -16,7 +16,7 @@
 #include "map/map_file.h"
 #include "map_json.h"
 #include "render/closest_view.h"
-#include "scene/basis.h"
+#include "scene/map_shader.h"
 #include "scene/scene_file.h"
 
 namespace redmap::cli {

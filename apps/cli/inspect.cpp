@@ -11,7 +11,6 @@
 #include "common.h"
 #include "map/map_file.h"
 #include "map_json.h"
-#include "scene/basis.h"
 #include "shader/shader.h"
 
 namespace redmap::cli {
@@ -115,7 +114,7 @@ void write_pictures(const ReductionMap& map, const Shader& shader, const std::fi
   };
   const int first = first_level(map.weights);
   write(coverage_picture(map.weights, first), "coverage.png");
-  const std::unique_ptr<BoundPatterns> patterns = bind_basis(shader, map);
+  const std::unique_ptr<BoundPatterns> patterns = shader.bind(basis_points(map));
   for (std::size_t b = 0; b < map.basis.size(); ++b) {
     write(sphere_picture(*patterns, b), fmt::format("basis{:02}.png", b));
     write(weight_picture(map.weights, first, static_cast<int>(b)), fmt::format("weight{:02}.png", b));

@@ -5,11 +5,14 @@
 #include <chrono>
 #include <cmath>
 
+#include "analysis/lobe_fit.h"
+#include "bake/normals.h"
 #include "bake/project.h"
 #include "bake/sample.h"
 #include "bake/surface_cells.h"
 #include "bake/texel_grid.h"
 #include "bake/verdict.h"
+#include "base/parallel.h"
 
 namespace redmap {
 namespace {
@@ -67,6 +70,12 @@ ReductionMap describe(const Surface& surface, const Shader& shader, const BakeOp
   return map;
 }
 
+void fit_lobes(const Shader& shader, ReductionMap& map) {
+  const std::unique_ptr<BoundPatterns> basis = shader.bind(basis_points(map));
+  map.lobes.resize(map.basis.size());
+  parallel_for(map.lobes.size(), [&](std::size_t b) { map.lobes[b] = fit_lobes(*basis, b); });
+}
+
 }  // namespace
 
 ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options, BakeReport* report) {
@@ -89,9 +98,15 @@ ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOption
   stopwatch.lap("project");
 
   ReductionMap map = describe(surface, shader, options, basis);
+  fit_lobes(shader, map);
   map.weights = WeightPyramid(weights);
   map.clusters = build_clusters(surface, map.weights);
   stopwatch.lap("build");
+
+  if (shader.info().perturbs_normals) {
+    map.normals = NormalPyramid(sample_normals(grid, shader, options, monitor), map.weights);
+    stopwatch.lap("normals");
+  }
 
   judge(grid, shader, sampled, map);
   stopwatch.lap("judge");

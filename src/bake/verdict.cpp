@@ -114,14 +114,12 @@ void judge(const TexelGrid& grid, const Shader& shader, const SampledTexels& sam
   if (shader.info().varies_in_time) {
     map.verdict = MapVerdict::kDoesNotReduce;
     map.verdict_reason = "the shader varies in time: a map holds one moment";
-  } else if (shader.info().perturbs_normals) {
-    map.verdict = MapVerdict::kDoesNotReduce;
-    map.verdict_reason = "the shader perturbs normals: a map holds none";
   } else if (map.residual > map.tolerance) {
     map.verdict = MapVerdict::kDoesNotReduce;
     map.verdict_reason = fmt::format("{} basis reflectances leave a residual of {:.3f}, over the tolerance of {:.3f}",
                                      map.basis.size(), map.residual, map.tolerance);
-  } else if (shader.info().has_material && !shader.info().emits) {  // averaged parameters hold no emission
+  } else if (shader.info().has_material && !shader.info().emits && !shader.info().perturbs_normals) {
+    // Averaged parameters hold no emission, and what normals do to them is not asked here.
     const double difference = one_material_difference(grid, shader, sampled);
     if (difference >= kOneMaterialDifference) return;
     map.verdict = MapVerdict::kOneMaterial;

@@ -1,5 +1,6 @@
 #include "map/map_description.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -81,6 +82,33 @@ std::vector<BasisPlace> parse_basis(const Reader& reader, const std::string& whe
   return basis;
 }
 
+/// A model as one list of numbers, angle by angle, and its error at the end.
+constexpr std::size_t kLobeFloats = LobeModel::kAngles * LobeModel::kAngleFloats + 1;
+Json lobe_list(const LobeModel& model) {
+  const float* first = &model.angles[0].constant[0];
+  std::vector<float> numbers(first, first + kLobeFloats - 1);
+  numbers.push_back(model.error);
+  return numbers;
+}
+
+std::vector<LobeModel> parse_lobes(const Reader& reader, std::size_t basis, const std::string& where) {
+  const Json& list = reader.get("lobes", "a list of lobe models");
+  if (!list.is_array() || list.size() != basis) reader.refuse("lobes", fmt::format("{} lobe models", basis));
+  std::vector<LobeModel> lobes(basis);
+  for (std::size_t b = 0; b < basis; ++b) {
+    const Json wrapped{{"model", list[b]}};
+    const Reader model(wrapped, fmt::format("{}: lobes {}", where, b));
+    const std::vector<float> numbers = model.numbers("model", kLobeFloats, kLobeFloats);
+    for (float number : numbers)
+      if (number < 0) model.refuse("model", "numbers from 0 up");
+    std::copy_n(numbers.begin(), kLobeFloats - 1, &lobes[b].angles[0].constant[0]);
+    lobes[b].error = numbers.back();
+    for (const LobeModel::Angle& angle : lobes[b].angles)
+      if (!(angle.stretch > 0)) model.refuse("model", "stretches above 0");
+  }
+  return lobes;
+}
+
 std::string hexadecimal(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 std::uint64_t parse_hash(const Reader& reader, const char* key) {
@@ -140,6 +168,8 @@ std::string describe_map(const ReductionMap& map) {
                      {"normal", list(p.normal)},
                      {"tangent", list(p.tangent)},
                      {"uv", {p.uv.x, p.uv.y}}});
+  Json lobes = Json::array();
+  for (const LobeModel& model : map.lobes) lobes.push_back(lobe_list(model));
   Json parameters = Json::object();
   for (const auto& [name, value] : map.parameters) parameters[name] = value;
   Json description{{"format_version", kMapFormatVersion},
@@ -154,7 +184,8 @@ std::string describe_map(const ReductionMap& map) {
                    {"verdict_reason", map.verdict_reason},
                    {"wraps_u", map.weights.wraps_u()},
                    {"scales", std::vector<float>(map.weights.scales().begin(), map.weights.scales().end())},
-                   {"basis", basis}};
+                   {"basis", basis},
+                   {"lobes", lobes}};
   if (!map.shader_origin.file.empty()) description["shader_origin"] = describe_origin(map.shader_origin);
   return description.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -183,6 +214,7 @@ MapDescription parse_map_description(std::string_view json, const std::string& w
   map.verdict = parse_verdict(reader);
   map.verdict_reason = reader.text("verdict_reason");
   map.basis = parse_basis(reader, where);
+  map.lobes = parse_lobes(reader, map.basis.size(), where);
   description.scales = reader.numbers("scales", map.basis.size(), map.basis.size());
   for (float scale : description.scales)
     if (scale < 0) reader.refuse("scales", "numbers from 0 up");

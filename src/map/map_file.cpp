@@ -21,6 +21,7 @@
 #include "base/exr_stream.h"
 #include "map/map_description.h"
 #include "map/map_file_clusters.h"
+#include "map/map_file_normals.h"
 
 namespace redmap {
 namespace {
@@ -31,7 +32,7 @@ constexpr unsigned kTileSize = 64;  ///< what texture systems like best
 constexpr int kMaxWidth = 32768, kMaxHeight = 16384;
 
 /// Parts of the file: the weights, a channel a basis reflectance, and the coverage, which viewers show as a grey
-/// picture. The clusters follow, where there are any.
+/// picture. Normals and clusters follow, where there are any.
 enum Part { kWeights, kCoverage, kParts };
 constexpr const char* kPartNames[kParts] = {"weights", "coverage"};
 
@@ -153,8 +154,8 @@ Extent checked_extent(const Imf::Header& header, const std::string& where) {
 }
 
 ReductionMap read_open_file(Imf::MultiPartInputFile& file, const std::string& where) {
-  if (file.parts() != kParts && file.parts() != kParts + 1)
-    throw Error("{}: expected {} or {} parts, found {}", where, int{kParts}, kParts + 1, file.parts());
+  if (file.parts() < kParts || file.parts() > kParts + 2)
+    throw Error("{}: expected {} to {} parts, found {}", where, int{kParts}, kParts + 2, file.parts());
   const auto* attribute = file.header(kWeights).findTypedAttribute<Imf::StringAttribute>(kAttribute);
   if (!attribute)
     throw Error("{}: expected a reduction map, found a picture without the attribute \"{}\"", where, kAttribute);
@@ -172,8 +173,14 @@ ReductionMap read_open_file(Imf::MultiPartInputFile& file, const std::string& wh
       WeightPyramid(extent, static_cast<int>(description.scales.size()), description.wraps_u, description.scales);
   for (Part part : {kWeights, kCoverage}) read_part(file, part, where, description.map.weights);
   description.map.weights.pad_rows();
-  if (file.parts() > kParts)
-    description.map.clusters = read_clusters(file, kParts, description.map.weights.channels(), where);
+  int next = kParts;
+  if (next < file.parts() && file.header(next).name() == kNormalsPart)
+    description.map.normals = read_normals(file, next++, description.map.weights, where);
+  if (next < file.parts())
+    description.map.clusters = read_clusters(file, next++, description.map.weights.channels(), where);
+  if (next < file.parts())
+    throw Error("{}: expected no part after \"{}\", found \"{}\"", where, file.header(next - 1).name(),
+                file.header(next).name());
   return std::move(description.map);
 }
 
@@ -188,10 +195,13 @@ void write_map(const std::filesystem::path& path, const ReductionMap& map) {
   ExrMemoryStream stream(path.string());
   try {
     std::vector<Imf::Header> headers{make_header(map, kWeights), make_header(map, kCoverage)};
+    if (!map.normals.empty()) headers.push_back(make_normals_header(map.weights));
     if (!map.clusters.empty()) headers.push_back(make_clusters_header(map.clusters, map.weights.extent(0)));
     Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
     for (Part part : {kWeights, kCoverage}) write_part(file, part, map.weights);
-    if (!map.clusters.empty()) write_clusters(file, kParts, map.clusters);
+    int next = kParts;
+    if (!map.normals.empty()) write_normals(file, next++, map.normals);
+    if (!map.clusters.empty()) write_clusters(file, next, map.clusters);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "map/overlap.h"
 
 namespace redmap {
 namespace {
@@ -14,28 +15,11 @@ namespace {
 /// Components read at once by the lookup, kept readable past the last texel and past the row below it.
 constexpr std::size_t kTail = kMaxChannels;
 
-/// Bytes a texel: a multiple of four, so that few texels straddle cache lines. Floats are left tight.
+/// Bytes a texel: a multiple of two, and of four from there on, so that few texels straddle cache lines. Floats are
+/// left tight.
 template <typename Component>
 int padded_texel(int channels) {
-  return std::is_same_v<Component, float> ? channels + 1 : (channels + 1 + 3) / 4 * 4;
-}
-
-/// Which texels of the finer level lie under a coarser one, along one axis, and how much of it each makes up.
-struct Overlap {
-  int first = 0;
-  std::vector<float> part;
-};
-
-std::vector<Overlap> overlaps(int fine, int coarse) {
-  std::vector<Overlap> result(coarse);
-  const double step = static_cast<double>(fine) / coarse;
-  for (int i = 0; i < coarse; ++i) {
-    const double begin = i * step, end = i + 1 == coarse ? fine : (i + 1) * step;
-    result[i].first = static_cast<int>(begin);
-    for (int j = result[i].first; j < end; ++j)
-      result[i].part.push_back(static_cast<float>((std::min<double>(end, j + 1) - std::max<double>(begin, j)) / step));
-  }
-  return result;
+  return std::is_same_v<Component, float> ? channels + 1 : channels == 1 ? 2 : (channels + 1 + 3) / 4 * 4;
 }
 
 void reduce_texel(const BaseLevel& fine, const Overlap& across, const Overlap& down, float* values, float& coverage) {

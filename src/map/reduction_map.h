@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "base/surface_points.h"
 #include "base/vec.h"
+#include "lobes/lobe_model.h"
 #include "map/footprint.h"
+#include "map/normal_pyramid.h"
 #include "map/pyramid.h"
 #include "map/surface_clusters.h"
 
@@ -52,8 +55,13 @@ struct ReductionMap {
   MapVerdict verdict = MapVerdict::kReduces;
   std::string verdict_reason;
   std::vector<BasisPlace> basis;
+  std::vector<LobeModel> lobes;  ///< of each basis reflectance: for integrals over normals (docs/normals.md)
   WeightPyramid weights;
+  NormalPyramid normals;     ///< of shading normals; empty where they are the interpolated ones
   SurfaceClusters clusters;  ///< for footprints that no atlas can serve; empty where the map is one chart
 };
+
+/// The places of the basis, to bind the shader at; padding repeats the last.
+SurfacePoints basis_points(const ReductionMap& map);
 
 }  // namespace redmap

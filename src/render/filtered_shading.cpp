@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/basis.h"
-
 namespace redmap {
 
 namespace {
@@ -78,52 +76,6 @@ void FilteredShading::transmittance(std::span<const SurfaceHit> hits, std::span<
     out.set(near_hits[k], original.get(k));
     if (part > 0) blend_into(out, near_hits[k], filtered, part);
   }
-}
-
-BasisShading::BasisShading(const Shader& shader, const ReductionMap& map)
-    : patterns_(bind_basis(shader, map)), transmittance_(map.basis.size()), emission_(map.basis.size()) {
-  Planes<3> values;
-  const auto keep = [&](std::vector<Rgb>& kept) {
-    for (std::size_t b = 0; b < kept.size(); ++b) kept[b] = values.rgb(b);
-  };
-  if (shader.info().transmits) patterns_->transmittance(values), keep(transmittance_);
-  if (shader.info().emits) patterns_->emission(values), keep(emission_);
-}
-
-void BasisShading::shade(const ShadingBatch& batch, std::span<const Frame> frames,
-                         std::span<const LaneVector<float>> weights, ShadedBatch& out, RenderCounts& counts) const {
-  out.radiance = Planes<3>(batch.size());
-  out.transmittance = Planes<3>(batch.size());
-  std::vector<std::size_t> present;
-  for (std::size_t b = 0; b < weights.size(); ++b)
-    if (std::any_of(weights[b].begin(), weights[b].end(), [](float w) { return w > 0; })) present.push_back(b);
-
-  Planes<3> radiance;
-  for (std::size_t light = 0; light < batch.lights.size(); ++light) {
-    const DirectionPairs pairs = pairs_in_frames(batch, light, frames);
-    for (std::size_t b : present) {
-      patterns_->radiance_one(b, pairs, radiance);
-      add_lit(weights[b].data(), radiance, batch.lights[light].irradiance, out.radiance);
-    }
-  }
-  counts.shader_calls += present.size() * batch.size() * batch.lights.size();
-
-  const auto add_constant = [&](const Rgb& value, const LaneVector<float>& weight, Planes<3>& sum) {
-    const float channel[3] = {value.r, value.g, value.b};
-    for (int c = 0; c < 3; ++c)
-      if (channel[c] != 0)
-        for (std::size_t i = 0; i < sum.stride(); ++i) sum[c][i] += weight[i] * channel[c];
-  };
-  for (std::size_t b : present) {
-    add_constant(emission_[b], weights[b], out.radiance);
-    add_constant(transmittance_[b], weights[b], out.transmittance);
-  }
-}
-
-Rgb BasisShading::transmittance(const FilteredTexel& texel) const {
-  Rgb sum;
-  for (std::size_t b = 0; b < transmittance_.size(); ++b) sum += transmittance_[b] * texel.channel[b];
-  return sum;
 }
 
 std::vector<LaneVector<float>> lookup_weights(const ReductionMap& map, std::span<const Footprint> footprints,

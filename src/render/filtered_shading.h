@@ -34,22 +34,6 @@ class FilteredShading : public ObjectShading {
   std::unique_ptr<ObjectShading> original_;
 };
 
-/// Evaluates the basis reflectances of a map: each bound once, then asked under many directions.
-class BasisShading {
- public:
-  BasisShading(const Shader& shader, const ReductionMap& map);
-
-  /// out.radiance and out.transmittance of a batch, given the weights of each hit: weights[b][i].
-  void shade(const ShadingBatch& batch, std::span<const Frame> frames, std::span<const LaneVector<float>> weights,
-             ShadedBatch& out, RenderCounts& counts) const;
-  Rgb transmittance(const FilteredTexel& texel) const;
-  std::size_t size() const { return transmittance_.size(); }
-
- private:
-  std::unique_ptr<BoundPatterns> patterns_;
-  std::vector<Rgb> transmittance_, emission_;
-};
-
 /// Calls use(i, filtered texel) for every footprint, looked up in batches.
 template <typename Component, typename Use>
 void for_each_lookup(const Pyramid<Component>& pyramid, std::span<const Footprint> footprints, LookupFilter filter,

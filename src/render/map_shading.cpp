@@ -1,12 +1,50 @@
 // Shading by a reduction map (paper, section 5.1, with the lookup and the normals that our design puts in its place).
+#include <algorithm>
 #include <array>
 
+#include "render/basis_shading.h"
 #include "render/filtered_shading.h"
 #include "render/seam_lookup.h"
 
 namespace redmap {
 
 namespace {
+
+/// Footprints around which the surface turns farther than this, as a variance, are no longer one tangent plane.
+constexpr float kMaximumVariance = 0.1f;
+
+/// Texels across a footprint whose normals are gathered, at least: measured, docs/normals.md.
+constexpr float kGatheredTexels = 2;
+
+struct Covariance {
+  float xx, xy, yy;
+};
+/// The turning of the interpolated normal within a hit's footprint, a box.
+Covariance curvature(const ShadingBatch& batch, std::size_t i) {
+  const SurfaceHit& hit = batch.hits[i];
+  const Footprint& footprint = batch.footprints[i];
+  const Frame& frame = batch.frames[i];
+  const auto turned = [&](Vec2 uv) {
+    const Vec3 change = hit.dn_du * uv.x + hit.dn_dv * uv.y;
+    return Vec2{dot(change, frame.x), dot(change, frame.y)};
+  };
+  const Vec2 x = turned(footprint.duv_dx), y = turned(footprint.duv_dy);
+  const float variance = (dot(x, x) + dot(y, y)) / 12;
+  const float scale = std::min(1.0f, kMaximumVariance / std::max(variance, 1e-12f)) / 12;
+  return {scale * (x.x * x.x + y.x * y.x), scale * (x.x * x.y + y.x * y.y), scale * (x.y * x.y + y.y * y.y)};
+}
+
+/// Adds it to all distributions of all hits, which are seen from the side that the hits are.
+void add_curvature(const ShadingBatch& batch, NormalMixtures& mixtures) {
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const Covariance c = curvature(batch, i);
+    for (std::uint32_t k = mixtures.first[i]; k < mixtures.first[i + 1]; ++k) {
+      // Frames of hits from behind have their y and z turned around.
+      if (batch.turned[i]) mixtures.y[k] = -mixtures.y[k], mixtures.xy[k] = -mixtures.xy[k];
+      mixtures.xx[k] += c.xx, mixtures.xy[k] += c.xy, mixtures.yy[k] += c.yy;
+    }
+  }
+}
 
 class MapShading : public FilteredShading {
  public:
@@ -19,9 +57,12 @@ class MapShading : public FilteredShading {
 
  protected:
   void shade_filtered(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
+    if (!map_->normals.empty()) return shade_normals(batch, out, counts);
     auto weights = look_up(batch, counts);
     if (!map_->clusters.empty()) blend_clusters(batch, weights, counts);
-    basis_.shade(batch, batch.frames, weights, out, counts);
+    NormalMixtures mixtures = NormalMixtures::one_each(batch.size(), std::move(weights));
+    add_curvature(batch, mixtures);
+    basis_.shade_around(batch, mixtures, out, counts);
   }
 
   Rgb filtered_transmittance(const Footprint& footprint) const override {
@@ -43,6 +84,14 @@ class MapShading : public FilteredShading {
     };
     for_each_lookup(map_->weights, batch.footprints, LookupFilter::kVarianceMatched, counts, use);
     return weights;
+  }
+
+  void shade_normals(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const {
+    NormalMixtures mixtures = NormalMixtures::none(map_->basis.size());
+    map_->normals.gather(batch.footprints, map_->weights, kGatheredTexels, mixtures);
+    counts.lookups += batch.size();
+    add_curvature(batch, mixtures);
+    basis_.integrate(batch, mixtures, out, counts);
   }
 
   /// Far away the surface itself is looked up instead of its atlas: docs/atlas.md.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "map/normal_moments.h"
+#include "render/basis_shading.h"
 #include "render/filtered_shading.h"
 
 namespace redmap {

@@ -136,11 +136,14 @@ TEST(Bake, WhatDoesNotReduce_SaysSo) {
   EXPECT_NE(pulsing.verdict_reason.find("time"), std::string::npos);
 }
 
-TEST(Bake, PerturbedNormals_DoNotReduce_ForMapsHoldNone) {
+TEST(Bake, PerturbedNormals_AreInTheMap_BesideOneMetal) {
   const ReductionMap hammered = bake_library("hammered_metal", 64);
   EXPECT_EQ(hammered.basis.size(), 1u) << "sampled in the shading frame it is one metal";
-  EXPECT_EQ(hammered.verdict, MapVerdict::kDoesNotReduce);
-  EXPECT_NE(hammered.verdict_reason.find("perturbs normals"), std::string::npos);
+  EXPECT_EQ(hammered.verdict, MapVerdict::kReduces);
+  ASSERT_EQ(hammered.normals.levels(), hammered.weights.levels());
+  ASSERT_EQ(hammered.lobes.size(), 1u);
+  EXPECT_LT(hammered.lobes[0].error, 0.05f);
+  EXPECT_TRUE(bake_library("noise", 64).normals.empty()) << "its shading normals are the interpolated ones";
 }
 
 TEST(Bake, OneMaterial_IsRecommendedWhereItIsEnough_AndOnlyThere) {

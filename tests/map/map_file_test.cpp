@@ -34,6 +34,11 @@ ReductionMap random_map(Extent extent, int basis) {
   map.verdict_reason = "one is enough";
   for (int i = 0; i < basis; ++i)
     map.basis.push_back({{0.1f, -2, 3e7f}, normalized({1, 2, 3}), normalized({-2, 1, 0}), {0.3f, 0.7f}});
+  map.lobes.resize(basis);
+  for (LobeModel& model : map.lobes) {
+    for (LobeModel::Angle& angle : model.angles) angle.amplitude[3] = {random.next_float(), 1.0f / 3, 1e-9f};
+    model.error = random.next_float();
+  }
   map.weights = WeightPyramid(base);
   return map;
 }
@@ -60,9 +65,31 @@ void expect_equal(const ReductionMap& a, const ReductionMap& b) {
       const auto row_a = a.weights.row(level, y), row_b = b.weights.row(level, y);
       ASSERT_TRUE(std::equal(row_a.begin(), row_a.end(), row_b.begin(), row_b.end())) << "level " << level;
     }
+  ASSERT_EQ(a.normals.levels(), b.normals.levels());
+  for (int level = 0; level < a.normals.levels(); ++level)
+    for (int y = 0; y < a.normals.extent(level).height; ++y) {
+      const auto row_a = a.normals.row(level, y), row_b = b.normals.row(level, y);
+      ASSERT_TRUE(std::equal(row_a.begin(), row_a.end(), row_b.begin(), row_b.end())) << "normals, level " << level;
+    }
   // The texel beyond the edge is not stored: it has to be made again.
   const Footprint seam{{1, 0.5f}, {}, {}};
   EXPECT_EQ(a.weights.lookup(seam).channel, b.weights.lookup(seam).channel);
+}
+
+/// The same with normals anywhere.
+ReductionMap random_map_with_normals(Extent extent, int basis) {
+  ReductionMap map = random_map(extent, basis);
+  BaseLevel moments(extent, NormalPyramid::kMoments, true);
+  Random random(6);
+  for (std::size_t t = 0; t < moments.coverage.size(); ++t) {
+    const int x = static_cast<int>(t) % extent.width, y = static_cast<int>(t) / extent.width;
+    moments.coverage[t] = map.weights.coverage(0, x, y);
+    const float mx = random.next_float() - 0.5f, my = random.next_float() - 0.5f;
+    const float values[] = {mx, my, mx * mx + 0.01f * random.next_float(), mx * my, my * my};
+    std::copy(std::begin(values), std::end(values), &moments.values[t * NormalPyramid::kMoments]);
+  }
+  map.normals = NormalPyramid(moments, map.weights);
+  return map;
 }
 
 /// `text` of the map at `path` replaced everywhere by another of the same length.
@@ -123,6 +150,15 @@ TEST(MapFile, ClustersReadBackBitForBit) {
     EXPECT_EQ(read.clusters.leaf(i).variance, map.clusters.leaf(i).variance);
     const auto a = read.clusters.leaf_weights(i), b = map.clusters.leaf_weights(i);
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+  }
+}
+
+TEST(MapFile, NormalsReadBackBitForBit) {
+  const TemporaryFolder folder;
+  for (const Extent extent : {Extent{64, 64}, Extent{100, 37}}) {
+    const ReductionMap map = random_map_with_normals(extent, 2);
+    write_map(folder / "map.exr", map);
+    expect_equal(map, read_map(folder / "map.exr"));
   }
 }
 
@@ -194,8 +230,8 @@ TEST(MapFile, ForeignFiles_AreNamedForWhatTheyAre) {
   expect_refused(path, "OpenEXR cannot read");
 
   write_map(path, random_map({16, 16}, 1));
-  patch(path, "\"format_version\":3,", "\"format_version\":7,");
-  expect_refused(path, "format_version: expected 3, found 7");
+  patch(path, "\"format_version\":4,", "\"format_version\":7,");
+  expect_refused(path, "format_version: expected 4, found 7");
 }
 
 TEST(MapFile, HostileDescriptions_AreRefusedByKey) {
@@ -225,7 +261,7 @@ TEST(MapFile, OtherPicturesAreNoMaps) {
   const TemporaryFolder folder;
   Image picture(8, 8, 3);
   write_image(picture, folder / "picture.exr");
-  expect_refused(folder / "picture.exr", "expected 2 or 3 parts, found 1");
+  expect_refused(folder / "picture.exr", "expected 2 to 4 parts, found 1");
 }
 
 TEST(MapFile, DoesNotTouchTheOldFile_WhenItCannotWrite) {

@@ -1,5 +1,4 @@
-// The basis reflectances of a map as a shader's patterns: a reduction map holds places, not reflectances (paper,
-// section 4.3).
+// The shader of a map: a reduction map holds places and a name, not reflectances (paper, section 4.3).
 #pragma once
 
 #include <filesystem>
@@ -18,8 +17,5 @@ std::shared_ptr<const Shader> shader_of(const ReductionMap& map, const std::file
 
 /// Where `shader` comes from, seen from the folder of a map. Nothing for shaders of the library.
 ShaderOrigin origin_of(const ShaderInfo& shader, const std::filesystem::path& map_folder);
-
-/// `shader` at the places of the map's basis, pattern by pattern. It should be the shader that the map was baked from.
-std::unique_ptr<BoundPatterns> bind_basis(const Shader& shader, const ReductionMap& map);
 
 }  // namespace redmap

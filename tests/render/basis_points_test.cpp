@@ -1,19 +1,20 @@
 // The basis of a map, bound: every pattern is the shader at its own place.
-#include "scene/basis.h"
-
 #include <gtest/gtest.h>
+
+#include "map/reduction_map.h"
+#include "shader/shader.h"
 
 namespace redmap {
 namespace {
 
-TEST(BindBasis, EveryPattern_IsTheShaderAtItsPlace) {
+TEST(BasisPoints, EveryPattern_IsTheShaderAtItsPlace) {
   const std::shared_ptr<const Shader> shader = make_library_shader("marble");
   ReductionMap map;
   for (int b = 0; b < 11; ++b) {
     const float t = 0.37f * static_cast<float>(b);
     map.basis.push_back({{t, 1 - t, 0.3f}, normalized({t, 1, 2}), normalized({-1, t, 0}), {0.05f * t, 0.1f}});
   }
-  const std::unique_ptr<BoundPatterns> basis = bind_basis(*shader, map);
+  const std::unique_ptr<BoundPatterns> basis = shader->bind(basis_points(map));
   ASSERT_EQ(basis->size(), 11u);
   DirectionPairs pairs;
   pairs.resize(1);
@@ -23,7 +24,7 @@ TEST(BindBasis, EveryPattern_IsTheShaderAtItsPlace) {
     ReductionMap alone;
     alone.basis = {map.basis[b]};
     Planes<3> expected, found;
-    bind_basis(*shader, alone)->radiance_one(0, pairs, expected);
+    shader->bind(basis_points(alone))->radiance_one(0, pairs, expected);
     basis->radiance_one(b, pairs, found);
     EXPECT_EQ(found.get(0), expected.get(0)) << b;
     EXPECT_GT(length(found.get(0)), 0);

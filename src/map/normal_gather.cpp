@@ -1,0 +1,122 @@
+// Gathering the normals under a footprint: raw texels, each by the area that the footprint has of it. What the
+// footprint takes in matters more than how it is integrated afterwards (docs/normals.md).
+#include <algorithm>
+#include <cmath>
+
+#include "map/normal_pyramid.h"
+
+namespace redmap {
+namespace {
+
+/// Footprints longer than this are widened: the texels of a lookup stay few.
+constexpr float kMaxAnisotropy = 6;
+/// And narrower ones than this part of a base texel too.
+constexpr float kLeastWidth = 0.5f;
+/// From this part of the way between two levels on they are mixed, so that nothing pops.
+constexpr float kBlendFrom = 0.6f;
+
+/// The footprint, or if it is too narrow a box along its axes. Its shorter side in base texels goes to `width`.
+Footprint widened(const Footprint& footprint, Extent extent, float& width) {
+  const FootprintAxes axes = footprint_axes(footprint, extent);
+  width = std::max({axes.minor, axes.major / kMaxAnisotropy, kLeastWidth});
+  if (width <= axes.minor) return footprint;
+  const float columns = static_cast<float>(extent.width), rows = static_cast<float>(extent.height);
+  const float major = std::max(axes.major, width);
+  Vec2 along{axes.major_direction_uv.x * columns, axes.major_direction_uv.y * rows};  // in texels
+  along = length(along) > 0 ? along * (1 / length(along)) : Vec2{1, 0};
+  return {footprint.uv,
+          {along.x * major / columns, along.y * major / rows},
+          {-along.y * width / columns, along.x * width / rows}};
+}
+
+/// How much of [a - half, a + half] lies in [-1/2, 1/2].
+float overlap(float a, float half) { return std::min(a + half, 0.5f) - std::max(a - half, -0.5f); }
+
+void append(const NormalGaussian& normals, NormalMixtures& out) {
+  out.x.push_back(normals.x), out.y.push_back(normals.y);
+  out.xx.push_back(normals.xx), out.xy.push_back(normals.xy), out.yy.push_back(normals.yy);
+}
+
+PackedNormals packed_at(const std::uint8_t* bytes) {
+  PackedNormals packed;
+  std::copy_n(bytes, packed.bytes.size(), packed.bytes.begin());
+  return packed;
+}
+
+}  // namespace
+
+bool NormalPyramid::gather_level(int level, const Footprint& footprint, const WeightPyramid& weights, float part,
+                                 NormalMixtures& out) const {
+  const auto [width, height] = extent(level);
+  const float columns = static_cast<float>(width), rows = static_cast<float>(height);
+  const Vec2 dx{footprint.duv_dx.x * columns, footprint.duv_dx.y * rows};
+  const Vec2 dy{footprint.duv_dy.x * columns, footprint.duv_dy.y * rows};
+  // Texels to footprint coordinates, in which the footprint is the unit square; and half the size of a texel there.
+  const float determinant = dx.x * dy.y - dx.y * dy.x;
+  const Vec2 to_a = Vec2{dy.y, -dy.x} * (1 / determinant), to_b = Vec2{-dx.y, dx.x} * (1 / determinant);
+  const float half_a = 0.5f * (std::abs(to_a.x) + std::abs(to_a.y));
+  const float half_b = 0.5f * (std::abs(to_b.x) + std::abs(to_b.y));
+  const Vec2 centre{footprint.uv.x * columns, footprint.uv.y * rows};
+  const float reach_x = 0.5f * (std::abs(dx.x) + std::abs(dy.x)) + 0.5f;
+  const float reach_y = 0.5f * (std::abs(dx.y) + std::abs(dy.y)) + 0.5f;
+  const int y0 = std::max(0, static_cast<int>(std::floor(centre.y - reach_y)));
+  const int y1 = std::min(height - 1, static_cast<int>(std::floor(centre.y + reach_y)));
+  int x0 = static_cast<int>(std::floor(centre.x - reach_x)), x1 = static_cast<int>(std::floor(centre.x + reach_x));
+  if (weights.wraps_u())
+    x1 = std::min(x1, x0 + width - 1);
+  else
+    x0 = std::max(x0, 0), x1 = std::min(x1, width - 1);
+
+  const std::size_t before = out.x.size();
+  const std::span<const float> scales = weights.scales();
+  float total = 0;
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) {
+      const Vec2 offset{static_cast<float>(x) + 0.5f - centre.x, static_cast<float>(y) + 0.5f - centre.y};
+      const float a = overlap(dot(to_a, offset), half_a), b = overlap(dot(to_b, offset), half_b);
+      if (a <= 0 || b <= 0) continue;
+      const int column = weights.wraps_u() ? ((x % width) + width) % width : x;
+      const float area = a * b * weights.coverage(level, column, y);
+      if (area <= 0) continue;
+      total += area;
+      const std::uint8_t* bytes = texel(level, column, y);
+      if (level == 0) {
+        append(unpack(packed_at(bytes)), out);
+        for (int i = 0; i < basis_; ++i) out.weights[i].push_back(area * weights.value(0, column, y, i));
+        continue;
+      }
+      for (int g = 0; g < kGaussians; ++g, bytes += 7 + basis_) {
+        if (bytes[6] == 0) continue;
+        append(unpack(packed_at(bytes)), out);
+        const float share = area * static_cast<float>(bytes[6]) * (1.0f / (255 * 255));
+        for (int i = 0; i < basis_; ++i) out.weights[i].push_back(share * scales[i] * static_cast<float>(bytes[7 + i]));
+      }
+    }
+  for (LaneVector<float>& w : out.weights)
+    for (std::size_t i = before; i < w.size(); ++i) w[i] *= part / total;
+  return total > 0;
+}
+
+void NormalPyramid::gather(std::span<const Footprint> footprints, const WeightPyramid& weights, float texels,
+                           NormalMixtures& out) const {
+  for (const Footprint& each : footprints) {
+    float width = 0;
+    const Footprint footprint = widened(each, extent(0), width);
+    const float position =
+        std::clamp(std::log2(std::max(width / texels, 1.0f)), 0.0f, static_cast<float>(levels() - 1));
+    const int level = std::min(static_cast<int>(position), std::max(0, levels() - 2));
+    const float coarse = std::clamp((position - static_cast<float>(level) - kBlendFrom) / (1 - kBlendFrom), 0.0f, 1.0f);
+    const bool found = coarse < 1 && gather_level(level, footprint, weights, 1 - coarse, out);
+    // What is covered on the finer level is so on the coarser.
+    const bool found_coarse = coarse > 0 && gather_level(level + 1, footprint, weights, found ? coarse : 1, out);
+    if (!found && !found_coarse) {
+      // Between charts: what was pulled in there, at one normal.
+      const FilteredTexel texel = weights.lookup(each);
+      append({}, out);
+      for (int b = 0; b < basis_; ++b) out.weights[b].push_back(texel.channel[b]);
+    }
+    out.first.push_back(static_cast<std::uint32_t>(out.x.size()));
+  }
+}
+
+}  // namespace redmap
