@@ -11,6 +11,7 @@
 #include "common.h"
 #include "map/map_file.h"
 #include "map_json.h"
+#include "scene/map_shader.h"
 #include "shader/shader.h"
 
 namespace redmap::cli {
