@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "device/device_impl.h"
+#include "device/spirv_checks.h"
 
 namespace redmap {
 namespace {
@@ -82,6 +83,10 @@ ComputePipeline::ComputePipeline(const Device& device, std::span<const std::uint
   if (inputs.push_constant_bytes > device.impl()->limits.maxPushConstantsSize)
     throw Error("device \"{}\": expected at most {} bytes of push constants, found {}", device.info().name,
                 device.impl()->limits.maxPushConstantsSize, inputs.push_constant_bytes);
+  const WideNumbers wide = wide_numbers(spirv);
+  const vk::PhysicalDeviceFeatures features = impl_->device->physical.getFeatures();
+  if ((wide.floats && !features.shaderFloat64) || (wide.integers && !features.shaderInt64))
+    throw Error("device \"{}\": expected a shader with numbers of 32 bits, found wider ones", device.info().name);
   on_device(*impl_->device, [&] {
     const vk::raii::Device& vulkan = impl_->device->device;
     impl_->set_layout = make_set_layout(vulkan, inputs);

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "device/loop_guard.h"
+#include "device/spirv_checks.h"
 #include "device/spirv_words.h"
 
 namespace redmap {
@@ -106,7 +107,12 @@ std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const
   glslang::SpvOptions options;
   options.disableOptimizer = true;  // drivers optimise
   glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv, &options);
-  return finished(loop_guard.empty() ? spirv : guard_loops(spirv, loop_guard));
+  try {
+    check_spirv(spirv);
+    return finished(loop_guard.empty() ? spirv : guard_loops(spirv, loop_guard));
+  } catch (const Error& error) {
+    throw Error("{}: {}", source_names.front(), error.what());
+  }
 }
 
 std::size_t array_stride(std::span<const std::uint32_t> spirv, const std::string& name) {

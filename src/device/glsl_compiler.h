@@ -12,7 +12,8 @@ namespace redmap {
 /// Compiles a complete compute shader. A line `#line N I` in `text` says that line N of source I follows;
 /// `source_names[I]` is what errors call it. Indices into arrays are clamped to their bounds. `loop_guard`, if given,
 /// names a function `bool NAME()` of the text that every loop asks before each round, and that ends it by saying false.
-/// Throws Error "NAME:LINE:COLUMN: what is wrong" for the first mistake.
+/// Throws Error "NAME:LINE:COLUMN: what is wrong" for the first mistake, and "NAME: what is wrong" for what would be
+/// too much for a device (spirv_checks.h).
 std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names,
                                         const std::string& loop_guard = "");
 

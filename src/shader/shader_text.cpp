@@ -240,7 +240,8 @@ void require_own_world(std::string_view text, std::span<const std::string> sourc
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const std::string& word = tokens[i].text;
     const bool is_image = word == "uniform" && i + 1 < tokens.size() && tokens[i + 1].text == "sampler2D";
-    const bool is_foreign = word == "buffer" || word == "shared" || word == "uniform" || word.starts_with("gl_");
+    const bool is_foreign =
+        word == "buffer" || word == "shared" || word == "uniform" || word == "barrier" || word.starts_with("gl_");
     const bool is_derivative = word.starts_with("dFdx") || word.starts_with("dFdy") || word.starts_with("fwidth");
     if (is_derivative && find_tokens(tokens, {"define", word}) == tokens.size())
       throw Error(

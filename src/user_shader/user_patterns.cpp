@@ -59,12 +59,11 @@ class UserPatterns final : public BoundPatterns {
       call.pairing = Pairing::kOnePattern;
       call.places = static_cast<std::uint32_t>(count);
       // Whatever happens, it happens at the one place.
-      try {
-        shader_->program.run(Stage::kRadiance, call, directions(pairs, first, count), patterns(pattern, 1), rows);
-        require_finite(rows, count, "radiance");
-      } catch (const FunctionError& error) {
-        fail_at(error, shader_->info.name, position_.get(pattern));
-      }
+      named([&](std::size_t) { return position_.get(pattern); },
+            [&] {
+              shader_->program.run(Stage::kRadiance, call, directions(pairs, first, count), patterns(pattern, 1), rows);
+              require_finite(rows, count, "radiance");
+            });
     });
   }
 
@@ -127,14 +126,21 @@ class UserPatterns final : public BoundPatterns {
     const std::size_t size_each = shader_->program.pattern_size();
     return std::span(bytes_).subspan(first * size_each, count * size_each);
   }
-  /// Errors of places counted from `first` get their position.
-  template <typename Body>
-  void check(std::size_t first, const Body& body) const {
+  /// Errors get the shader's name, and the position of the place where there is one.
+  template <typename Position, typename Body>
+  void named(const Position& position, const Body& body) const {
     try {
       body();
     } catch (const FunctionError& error) {
-      fail_at(error, shader_->info.name, position_.get(first + error.place()));
+      fail_at(error, shader_->info.name, position(error.place()));
+    } catch (const Error& error) {
+      throw Error("shader \"{}\": {}", shader_->info.name, error.what());
     }
+  }
+  /// Places are counted from `first`.
+  template <typename Body>
+  void check(std::size_t first, const Body& body) const {
+    named([&](std::size_t place) { return position_.get(first + place); }, body);
   }
   void run(Stage stage, StageCall call, const InputRows& in, std::size_t first, std::size_t count,
            std::span<float* const> out) const {

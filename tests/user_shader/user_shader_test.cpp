@@ -206,6 +206,7 @@ TEST_F(UserShader, ReachingForMoreThanAShaderHas_IsRefused) {
   EXPECT_EQ(with("vec2 f() { return gl_FragCoord.xy; }").substr(0, 33), "mine.glsl:7:19: 'gl_FragCoord': a");
   EXPECT_EQ(with("uniform float iTime;").substr(0, 27), "mine.glsl:7:1: 'uniform': a");
   EXPECT_EQ(with("buffer B { float secret[]; };").substr(0, 26), "mine.glsl:7:1: 'buffer': a");
+  EXPECT_EQ(with("void f() { barrier(); }").substr(0, 29), "mine.glsl:7:12: 'barrier': a ");
   EXPECT_EQ(with("shared float s;").substr(0, 26), "mine.glsl:7:1: 'shared': a");
   EXPECT_EQ(with("/* gl_ and buffer\n may be said */ // uniform"), "");
 }
@@ -234,6 +235,22 @@ TEST_F(UserShader, ThatDoesNotEnd_IsStoppedAndNamed) {
       kParameters + "struct Pattern { vec3 c; };\n" + kPattern +
       "vec3 radiance(Pattern m, vec3 l, vec3 v) { float x = 0.0; while (l.z > -2.0) x += l.z; return vec3(x); }\n");
   EXPECT_EQ(in_radiance.substr(0, 40), "shader \"mine.glsl\": radiance(): expected");
+}
+
+TEST_F(UserShader, WithMoreThanADeviceCanBear_IsRefused) {
+  const auto with = [&](const std::string& lines) {
+    return complaint(lines + "\n" + kParameters + kRest +
+                     "Pattern pattern(Surface at, Parameters p) { return Pattern(vec3(f(at.position.x))); }\n");
+  };
+  const std::string big =
+      "float f(float x) { float a[SIZE]; for (int i = 0; i < 9; i++) a[int(x) + i] = x; return a[3]; }";
+  EXPECT_EQ(with("#define SIZE 2000\n" + big), "");
+  EXPECT_EQ(with("#define SIZE 200000000\n" + big),
+            "mine.glsl: expected arrays of at most 32768 bytes in all, found 8e+08");
+  EXPECT_EQ(with("#extension GL_KHR_shader_subgroup_arithmetic : require\nfloat f(float x) { return subgroupAdd(x); }")
+                .substr(0, 58),
+            "mine.glsl: expected a shader that keeps to core GLSL 4.50,");
+  EXPECT_EQ(with("float f(float x) { double d = double(x); return float(d * d); }"), "");
 }
 
 // 3000 rounds for each of 34 pairs are too many for one invocation, and still end.
