@@ -96,7 +96,7 @@ void ShaderProgram::run(Stage stage, StageCall call, const InputRows& in, std::s
   }
   if (status != kAllEnded)
     throw FunctionError(status / kStatusFunctions, status_function(status % kStatusFunctions),
-                        fmt::format("expected loops that end, found one that had not after {} rounds", kMostRounds));
+                        fmt::format("expected loops that end within {} rounds in all, found more", kMostRounds));
 }
 
 std::uint32_t ShaderProgram::dispatch(OnDevice& on, Stage stage, const StageCall& call, const InputRows& in,

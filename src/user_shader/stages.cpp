@@ -80,7 +80,7 @@ RedmapPlace redmap_framed(Surface redmap_at, vec3 redmap_n) {
 }
 )";
 
-/// What does: {0} type of what is bound.
+/// What does. REDMAP_BOUND is the type of what is bound.
 constexpr std::string_view kAfter = R"(
 layout(std430, binding = 0) readonly buffer RedmapParameters { Parameters redmap_parameters; };
 layout(std430, binding = 2) buffer RedmapPatterns { REDMAP_BOUND redmap_patterns[]; };
