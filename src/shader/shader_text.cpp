@@ -21,6 +21,16 @@ bool defines(const ShaderTokens& tokens, std::string_view type, std::string_view
          find_tokens(tokens, {type, name, "(", "in", first}) < tokens.size();
 }
 
+/// Whether `.time` is read of anything declared as a Surface, of what a function returns, or of an element of an array.
+bool reads_time(const ShaderTokens& tokens) {
+  for (const char* end : {")", "]"})
+    if (find_tokens(tokens, {end, ".", "time"}) < tokens.size()) return true;
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
+    if (tokens[i].text == "Surface" && find_tokens(tokens, {tokens[i + 1].text, ".", "time"}) < tokens.size())
+      return true;
+  return false;
+}
+
 std::size_t components_of(const std::string& type) {
   return type == "float" || type == "int" ? 1 : type == "vec2" ? 2 : type == "vec3" ? 3 : 0;
 }
@@ -224,7 +234,7 @@ ShaderInfo parse_shader_text(std::string_view text, std::span<const std::string>
   info.emits = defines(tokens, "vec3", "emission", "Pattern");
   info.has_material = defines(tokens, "Material", "material", "Pattern");
   info.perturbs_normals = defines(tokens, "vec3", "shading_normal", "Surface");
-  info.varies_in_time = find_tokens(tokens, {".", "time"}) < tokens.size();
+  info.varies_in_time = reads_time(tokens);
   return info;
 }
 

@@ -73,6 +73,16 @@ float clock(Surface place) { return place.time; })",
   EXPECT_TRUE(info.emits && info.transmits && info.varies_in_time && info.has_material && info.perturbs_normals);
 }
 
+TEST(ShaderText, OnlyTheTimeOfASurfaceMakesAShaderVaryInTime) {
+  const auto varies = [](const std::string& function) {
+    return parse_shader_text(kText + function + "\n", "own.glsl").varies_in_time;
+  };
+  EXPECT_FALSE(varies("struct Wave { float time; }; float f(Wave w) { return w.time; }"));
+  EXPECT_TRUE(varies("float f(in Surface place) { return place.time; }"));
+  EXPECT_TRUE(varies("Surface moved(Surface s) { return s; } float f(Surface s) { return moved(s).time; }"));
+  EXPECT_TRUE(varies("float f() { Surface both[2]; return both[1].time; }"));
+}
+
 TEST(ShaderText, SurvivesWindowsLineEnds) {
   std::string text;
   for (const char* c = kText; *c; ++c) text += *c == '\n' ? "\r\n" : std::string(1, *c);
