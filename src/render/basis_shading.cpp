@@ -113,7 +113,7 @@ void BasisShading::shade_around(const ShadingBatch& batch, const NormalMixtures&
     for (std::size_t b : present) {
       patterns_->radiance_one(b, pairs, radiance);
       multiply(mixtures.weights[b], radiance);
-      spread_radiance(b, pairs, mixtures, radiance, counts);
+      spread_radiance(b, pairs, mixtures, radiance, out.decisions, counts);
       add_lit(nullptr, radiance, batch.lights[light].irradiance, out.radiance);
     }
   }
@@ -122,7 +122,7 @@ void BasisShading::shade_around(const ShadingBatch& batch, const NormalMixtures&
 }
 
 void BasisShading::spread_radiance(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures,
-                                   Planes<3>& radiance, RenderCounts& counts) const {
+                                   Planes<3>& radiance, std::span<Decision> decisions, RenderCounts& counts) const {
   const float narrowest = lobes_[basis].narrowest * lobes_[basis].narrowest;
   const float begin = kSpreadBegin * kSpreadBegin * narrowest, end = kSpreadEnd * kSpreadEnd * narrowest;
   std::vector<std::uint32_t> hits;
@@ -136,8 +136,10 @@ void BasisShading::spread_radiance(std::size_t basis, const DirectionPairs& pair
   Planes<3> at_mean(hits.size()), integrated(hits.size());
   gather(pairs.to_light, hits, some_pairs.to_light), gather(pairs.to_viewer, hits, some_pairs.to_viewer);
   gather(radiance, hits, at_mean);
-  integrate_basis(basis, some_pairs, some, 0, &at_mean, integrated, counts);
+  std::vector<Decision> some_decisions(hits.size(), Decision::kMeanNormal);
+  integrate_basis(basis, some_pairs, some, 0, &at_mean, integrated, some_decisions, counts);
   for (std::size_t i = 0; i < hits.size(); ++i) {
+    decisions[hits[i]] = std::max(decisions[hits[i]], some_decisions[i]);
     const float part = std::min(1.0f, (some.xx[i] + some.yy[i] - begin) / (end - begin));
     radiance.set(hits[i], at_mean.get(i) * (1 - part) + integrated.get(i) * part);
   }
@@ -154,7 +156,7 @@ void BasisShading::integrate(const ShadingBatch& batch, const NormalMixtures& mi
     const DirectionPairs pairs = pairs_in_frames(batch, light, batch.frames);
     for (std::size_t b : present) {
       radiance = Planes<3>(batch.size());
-      integrate_basis(b, pairs, mixtures, b, nullptr, radiance, counts);
+      integrate_basis(b, pairs, mixtures, b, nullptr, radiance, out.decisions, counts);
       add_lit(nullptr, radiance, batch.lights[light].irradiance, out.radiance);
     }
   }

@@ -9,6 +9,8 @@ const DecisionLegend& decision_legend(Decision decision) {
   static constexpr std::array<DecisionLegend, kDecisionCount> kLegend{{
       {"background", {0.02f, 0.02f, 0.02f}},
       {"mean normal", {0.05f, 0.2f, 0.6f}},
+      {"convolved with the normals", {0.05f, 0.45f, 0.3f}},
+      {"drawn normals", {0.45f, 0.1f, 0.5f}},
       {"original, close up", {0.6f, 0.6f, 0.6f}},
       {"blended with the original", {0.25f, 0.45f, 0.65f}},
       {"subdivided at an edge", {0.8f, 0.6f, 0.05f}},

@@ -13,12 +13,14 @@ namespace redmap {
 enum class Decision : std::uint8_t {
   kBackground,    ///< no object
   kMeanNormal,    ///< looked up, and shaded about one normal
+  kConvolved,     ///< looked up, and a lobe model convolved with the normals
+  kDrawn,         ///< looked up, and shaded about normals drawn from their distribution
   kOriginal,      ///< the shader itself, close up
   kBlended,       ///< something of both
   kSubdivided,    ///< more rays, at silhouettes, chart seams and occlusions
   kSupersampled,  ///< jittered samples of the shader itself, since a lookup would not do
 };
-inline constexpr int kDecisionCount = 6;
+inline constexpr int kDecisionCount = 8;
 
 /// Flat colour, linear, and words for people.
 struct DecisionLegend {

@@ -145,6 +145,11 @@ Modelled model_hits(const LobeModel& model, const WidthsInUse& in_use, const Nor
   return m;
 }
 
+bool has_weight(const NormalMixtures& m, std::size_t weights, std::size_t hit) {
+  const auto begin = m.weights[weights].begin();
+  return std::any_of(begin + m.first[hit], begin + m.first[hit + 1], [](float weight) { return weight > 0; });
+}
+
 ColourLanes load_colour(const Planes<3>& planes, std::size_t i) {
   return {lanes::load(planes[0] + i), lanes::load(planes[1] + i), lanes::load(planes[2] + i)};
 }
@@ -161,9 +166,13 @@ void scatter(const Calls& calls, const BoundPatterns& patterns, std::size_t patt
 
 void BasisShading::integrate_basis(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures,
                                    std::size_t weights, const Planes<3>* given, Planes<3>& radiance,
-                                   RenderCounts& counts) const {
+                                   std::span<Decision> decisions, RenderCounts& counts) const {
   const Lobes& lobes = lobes_[basis];
-  if (!lobes.trusted) return draw_normals(basis, pairs, mixtures, weights, radiance, counts);
+  if (!lobes.trusted) {
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (has_weight(mixtures, weights, i)) decisions[i] = Decision::kDrawn;
+    return draw_normals(basis, pairs, mixtures, weights, radiance, counts);
+  }
   const std::size_t hits = pairs.size();
   std::vector<Modelled> modelled;
   modelled.reserve(padded(hits) / kLanes);
@@ -174,7 +183,10 @@ void BasisShading::integrate_basis(std::size_t basis, const DirectionPairs& pair
     const Modelled& m = modelled.back();
     const std::size_t count = std::min(kLanes, hits - hit);
     if (!given) at_mean.add(hit, count, m.sums.weight > 0.0f && m.part < 1.0f, m.mean, pair);
-    at_brightest.add(hit, count, m.sums.weight > 0.0f && m.part > 0.0f, m.brightest, pair);
+    const lanes::Bool convolved = m.sums.weight > 0.0f && m.part > 0.0f;
+    at_brightest.add(hit, count, convolved, m.brightest, pair);
+    for (std::size_t lane = 0; lane < count; ++lane)
+      if (convolved.v[lane]) decisions[hit + lane] = std::max(decisions[hit + lane], Decision::kConvolved);
   }
   Planes<3> mean_answers(given ? 0 : hits), brightest_answers(hits);
   scatter(at_mean, *patterns_, basis, mean_answers);

@@ -67,6 +67,17 @@ TEST(PaperRule, HoldsForShadersThatPerturbNormalsAlone) {
   EXPECT_EQ(std::count(found.decisions.begin(), found.decisions.end(), Decision::kSupersampled), 0);
 }
 
+TEST(Decisions, OfTheMap_ConvolveTheHighlightsOfBumps_AndNothingOfPlainWhite) {
+  const PaperScene bumps("hammered_metal", 256);
+  const RenderedFrame convolved = bumps.render(Method::kMap);
+  EXPECT_GT(std::count(convolved.decisions.begin(), convolved.decisions.end(), Decision::kConvolved), 300);
+  EXPECT_EQ(std::count(convolved.decisions.begin(), convolved.decisions.end(), Decision::kDrawn), 0);
+  const PaperScene smooth("white", 256);
+  const RenderedFrame plain = smooth.render(Method::kMap);
+  EXPECT_GT(std::count(plain.decisions.begin(), plain.decisions.end(), Decision::kMeanNormal), 300);
+  EXPECT_EQ(std::count(plain.decisions.begin(), plain.decisions.end(), Decision::kConvolved), 0);
+}
+
 TEST(Decisions, CloseUpAreTheOriginal_AndPaintedInColoursOfTheirOwn) {
   const PaperScene coarse("checker", 4);
   const RenderedFrame found = coarse.render(Method::kMap);
