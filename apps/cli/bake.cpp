@@ -134,7 +134,7 @@ nlohmann::json bake_object(const Options& options, const Object& object) {
       object.name, map.shader, map.weights.extent(0).width, map.weights.extent(0).height, map.basis.size(),
       map.basis.size() == 1 ? "" : "s", map.residual, map.tolerance, verdict_name(map.verdict),
       map.verdict_reason.empty() ? "" : ": ", map.verdict_reason, report.seconds,
-      static_cast<double>(map.weights.bytes()) * 1e-6, path.string());
+      static_cast<double>(texel_bytes(map)) * 1e-6, path.string());
   return json;
 }
 

@@ -134,7 +134,7 @@ void inspect(const Options& options) {
     fmt::print("  at uv {:.4f} {:.4f}, position {:.4g} {:.4g} {:.4g}\n", p.uv.x, p.uv.y, p.position.x, p.position.y,
                p.position.z);
   fmt::print("size       {}x{}, {} levels, {:.1f} MB in memory\n", extent.width, extent.height, map.weights.levels(),
-             static_cast<double>(map.weights.bytes()) * 1e-6);
+             static_cast<double>(texel_bytes(map)) * 1e-6);
   fmt::print("residual   {:.4f} of {:g}\n", map.residual, map.tolerance);
   fmt::print("verdict    {}{}{}\n", verdict_name(map.verdict), map.verdict_reason.empty() ? "" : ": ",
              map.verdict_reason);

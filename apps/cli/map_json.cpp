@@ -20,7 +20,7 @@ nlohmann::json map_json(const ReductionMap& map) {
           {"basis_places", places},
           {"size", {extent.width, extent.height}},
           {"levels", map.weights.levels()},
-          {"bytes_in_memory", map.weights.bytes()},
+          {"bytes_in_memory", texel_bytes(map)},
           {"residual", map.residual},
           {"tolerance", map.tolerance},
           {"verdict", verdict_name(map.verdict)},

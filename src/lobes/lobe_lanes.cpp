@@ -1,5 +1,6 @@
 #include "lobes/lobe_lanes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/lanes_math.h"
@@ -16,6 +17,8 @@ constexpr float kShortestHalf = 0.05f;
 constexpr float kLeastFacing = 0.1f;
 /// The z of mean normals is at least this: nothing is seen of steeper ones.
 constexpr float kLeastZ = 0.1f;
+/// A highlight is as narrow as the Gaussians that make up this part of its peak.
+constexpr float kNarrowPart = 0.25f;
 constexpr float kDegrees = 57.2957795f;
 /// A fit that is off by more is better left as it is.
 constexpr float kLargestScale = 2;
@@ -160,10 +163,21 @@ WidthsInUse widths_in_use(const LobeModel& model) {
 }
 
 float narrowest_width(const LobeModel& model) {
-  const auto in_use = widths_in_use(model);
-  for (int k = 0; k < LobeModel::kWidths; ++k)
-    if (in_use[k]) return LobeModel::width(k);
-  return 0;
+  float narrowest = LobeModel::width(LobeModel::kWidths - 1);
+  for (const LobeModel::Angle& angle : model.angles) {
+    const auto brightness = [&](int k) {
+      return angle.amplitude[k][0] + angle.amplitude[k][1] + angle.amplitude[k][2];
+    };
+    float peak = 0, sum = 0;
+    for (int k = 0; k < LobeModel::kWidths; ++k) peak += brightness(k);
+    for (int k = 0; k < LobeModel::kWidths; ++k) {
+      sum += brightness(k);
+      if (peak <= 0 || sum < kNarrowPart * peak) continue;
+      narrowest = std::min(narrowest, LobeModel::width(k));
+      break;
+    }
+  }
+  return narrowest;
 }
 
 void add_distribution(const WidthsInUse& in_use, const LobeLanes& lobes, const HalfVectorLanes& half,

@@ -32,7 +32,8 @@ HalfVectorLanes half_vector(Vec3Lanes to_light, Vec3Lanes to_viewer);
 /// Which Gaussians of a model count at any angle: the others are skipped.
 using WidthsInUse = std::array<bool, LobeModel::kWidths>;
 WidthsInUse widths_in_use(const LobeModel& model);
-/// Width of the narrowest Gaussian in use; 0 if there is none.
+/// Width of the narrowest Gaussian that makes up, with those narrower, a quarter of a highlight's peak; the
+/// widest there is where there is no highlight.
 float narrowest_width(const LobeModel& model);
 
 /// A model at some angle. Amplitudes of widths that are not in use may be anything.

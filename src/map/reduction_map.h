@@ -61,6 +61,9 @@ struct ReductionMap {
   SurfaceClusters clusters;  ///< for footprints that no atlas can serve; empty where the map is one chart
 };
 
+/// Bytes that its texels take in memory.
+inline std::size_t texel_bytes(const ReductionMap& map) { return map.weights.bytes() + map.normals.bytes(); }
+
 /// The places of the basis, to bind the shader at; padding repeats the last.
 SurfacePoints basis_points(const ReductionMap& map);
 

@@ -12,6 +12,11 @@ namespace {
 
 using lanes::Float;
 
+bool any(lanes::Bool b) {
+  for (std::size_t i = 0; i < kLanes; ++i)
+    if (b.v[i]) return true;
+  return false;
+}
 Vec3Lanes load(const Planes<3>& planes, std::size_t i) {
   return {lanes::load(planes[0] + i), lanes::load(planes[1] + i), lanes::load(planes[2] + i)};
 }
@@ -101,7 +106,7 @@ class Calls {
 
 /// What the model says of eight hits, and at which normals the reflectance itself is to be asked.
 struct Modelled {
-  LobeSums sums;
+  Float weight;
   LobeValue whole, at_mean, at_brightest;
   Vec3Lanes mean, brightest;
   Float part;  ///< of the integral calibrated at the brightest normal, against that corrected at the mean
@@ -134,14 +139,18 @@ Modelled model_hits(const LobeModel& model, const WidthsInUse& in_use, const Nor
   const HalfVectorLanes half = half_vector(pair.to_light, pair.to_viewer);
   const LobeLanes lobes = lobes_at(model, in_use, half.theta_degrees);
   Modelled m;
-  m.sums = sums_of(mixtures, weights, in_use, lobes, half, hit, hits);
-  m.whole = integral(in_use, lobes, m.sums);
-  const Float inverse = 1.0f / lanes::max(m.sums.weight, 1e-12f), x = m.sums.x * inverse, y = m.sums.y * inverse;
+  const LobeSums sums = sums_of(mixtures, weights, in_use, lobes, half, hit, hits);
+  m.weight = sums.weight;
+  m.whole = integral(in_use, lobes, sums);
+  const Float inverse = 1.0f / lanes::max(sums.weight, 1e-12f), x = sums.x * inverse, y = sums.y * inverse;
   m.mean = {x, y, lanes::sqrt(lanes::max(1.0f - x * x - y * y, 0.01f))};
   m.at_mean = at_normal(in_use, lobes, half, m.mean);
-  m.part = calibrated_part(m.sums, m.whole, m.at_mean);
-  m.brightest = brightest_normal(half, m.sums);
-  m.at_brightest = at_normal(in_use, lobes, half, m.brightest);
+  m.part = calibrated_part(sums, m.whole, m.at_mean);
+  m.brightest = m.mean, m.at_brightest = m.at_mean;
+  if (any(m.part > 0.0f)) {
+    m.brightest = brightest_normal(half, sums);
+    m.at_brightest = at_normal(in_use, lobes, half, m.brightest);
+  }
   return m;
 }
 
@@ -182,8 +191,8 @@ void BasisShading::integrate_basis(std::size_t basis, const DirectionPairs& pair
     modelled.push_back(model_hits(lobes.model, lobes.in_use, mixtures, weights, pair, hit, hits));
     const Modelled& m = modelled.back();
     const std::size_t count = std::min(kLanes, hits - hit);
-    if (!given) at_mean.add(hit, count, m.sums.weight > 0.0f && m.part < 1.0f, m.mean, pair);
-    const lanes::Bool convolved = m.sums.weight > 0.0f && m.part > 0.0f;
+    if (!given) at_mean.add(hit, count, m.weight > 0.0f && m.part < 1.0f, m.mean, pair);
+    const lanes::Bool convolved = m.weight > 0.0f && m.part > 0.0f;
     at_brightest.add(hit, count, convolved, m.brightest, pair);
     for (std::size_t lane = 0; lane < count; ++lane)
       if (convolved.v[lane]) decisions[hit + lane] = std::max(decisions[hit + lane], Decision::kConvolved);
@@ -196,13 +205,13 @@ void BasisShading::integrate_basis(std::size_t basis, const DirectionPairs& pair
     const Modelled& m = modelled[hit / kLanes];
     ColourLanes mean = load_colour(given ? *given : mean_answers, hit);
     if (!given)
-      for (Float& channel : mean) channel *= m.sums.weight;
-    const ColourLanes a = corrected(m.whole, m.at_mean, mean, m.sums.weight);
+      for (Float& channel : mean) channel *= m.weight;
+    const ColourLanes a = corrected(m.whole, m.at_mean, mean, m.weight);
     const ColourLanes b = calibrated(m.whole, m.at_brightest, load_colour(brightest_answers, hit));
     for (int c = 0; c < 3; ++c) {
       const Float value =
           lanes::select(m.part <= 0.0f, a[c], lanes::select(m.part >= 1.0f, b[c], a[c] + m.part * (b[c] - a[c])));
-      lanes::store(radiance[c] + hit, lanes::select(m.sums.weight > 0.0f, value, 0.0f));
+      lanes::store(radiance[c] + hit, lanes::select(m.weight > 0.0f, value, 0.0f));
     }
   }
 }
