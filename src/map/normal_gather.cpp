@@ -32,9 +32,9 @@ Footprint widened(const Footprint& footprint, Extent extent, float& width) {
 /// How much of [a - half, a + half] lies in [-1/2, 1/2].
 float overlap(float a, float half) { return std::min(a + half, 0.5f) - std::max(a - half, -0.5f); }
 
-void append(const NormalGaussian& normals, NormalMixtures& out) {
-  out.x.push_back(normals.x), out.y.push_back(normals.y);
-  out.xx.push_back(normals.xx), out.xy.push_back(normals.xy), out.yy.push_back(normals.yy);
+void set(const NormalGaussian& normals, std::size_t i, NormalMixtures& out) {
+  out.x[i] = normals.x, out.y[i] = normals.y;
+  out.xx[i] = normals.xx, out.xy[i] = normals.xy, out.yy[i] = normals.yy;
 }
 
 PackedNormals packed_at(const std::uint8_t* bytes) {
@@ -46,7 +46,7 @@ PackedNormals packed_at(const std::uint8_t* bytes) {
 }  // namespace
 
 bool NormalPyramid::gather_level(int level, const Footprint& footprint, const WeightPyramid& weights, float part,
-                                 NormalMixtures& out) const {
+                                 std::uint32_t& count, NormalMixtures& out) const {
   const auto [width, height] = extent(level);
   const float columns = static_cast<float>(width), rows = static_cast<float>(height);
   const Vec2 dx{footprint.duv_dx.x * columns, footprint.duv_dx.y * rows};
@@ -67,7 +67,9 @@ bool NormalPyramid::gather_level(int level, const Footprint& footprint, const We
   else
     x0 = std::max(x0, 0), x1 = std::min(x1, width - 1);
 
-  const std::size_t before = out.x.size();
+  if (x1 < x0 || y1 < y0) return false;
+  const std::uint32_t before = count;
+  out.make_room(count + static_cast<std::size_t>(x1 - x0 + 1) * (y1 - y0 + 1) * kGaussians);
   const std::span<const float> scales = weights.scales();
   float total = 0;
   for (int y = y0; y <= y1; ++y)
@@ -81,19 +83,21 @@ bool NormalPyramid::gather_level(int level, const Footprint& footprint, const We
       total += area;
       const std::uint8_t* bytes = texel(level, column, y);
       if (level == 0) {
-        append(unpack(packed_at(bytes)), out);
-        for (int i = 0; i < basis_; ++i) out.weights[i].push_back(area * weights.value(0, column, y, i));
+        set(unpack(packed_at(bytes)), count, out);
+        for (int i = 0; i < basis_; ++i) out.weights[i][count] = area * weights.value(0, column, y, i);
+        ++count;
         continue;
       }
       for (int g = 0; g < kGaussians; ++g, bytes += 7 + basis_) {
         if (bytes[6] == 0) continue;
-        append(unpack(packed_at(bytes)), out);
+        set(unpack(packed_at(bytes)), count, out);
         const float share = area * static_cast<float>(bytes[6]) * (1.0f / (255 * 255));
-        for (int i = 0; i < basis_; ++i) out.weights[i].push_back(share * scales[i] * static_cast<float>(bytes[7 + i]));
+        for (int i = 0; i < basis_; ++i) out.weights[i][count] = share * scales[i] * static_cast<float>(bytes[7 + i]);
+        ++count;
       }
     }
   for (LaneVector<float>& w : out.weights)
-    for (std::size_t i = before; i < w.size(); ++i) w[i] *= part / total;
+    for (std::uint32_t i = before; i < count; ++i) w[i] *= part / total;
   return total > 0;
 }
 
@@ -106,16 +110,19 @@ void NormalPyramid::gather(std::span<const Footprint> footprints, const WeightPy
         std::clamp(std::log2(std::max(width / texels, 1.0f)), 0.0f, static_cast<float>(levels() - 1));
     const int level = std::min(static_cast<int>(position), std::max(0, levels() - 2));
     const float coarse = std::clamp((position - static_cast<float>(level) - kBlendFrom) / (1 - kBlendFrom), 0.0f, 1.0f);
-    const bool found = coarse < 1 && gather_level(level, footprint, weights, 1 - coarse, out);
+    std::uint32_t count = out.first.back();
+    const bool found = coarse < 1 && gather_level(level, footprint, weights, 1 - coarse, count, out);
     // What is covered on the finer level is so on the coarser.
-    const bool found_coarse = coarse > 0 && gather_level(level + 1, footprint, weights, found ? coarse : 1, out);
+    const bool found_coarse = coarse > 0 && gather_level(level + 1, footprint, weights, found ? coarse : 1, count, out);
     if (!found && !found_coarse) {
       // Between charts: what was pulled in there, at one normal.
       const FilteredTexel texel = weights.lookup(each);
-      append({}, out);
-      for (int b = 0; b < basis_; ++b) out.weights[b].push_back(texel.channel[b]);
+      out.make_room(count + 1);
+      set({}, count, out);
+      for (int b = 0; b < basis_; ++b) out.weights[b][count] = texel.channel[b];
+      ++count;
     }
-    out.first.push_back(static_cast<std::uint32_t>(out.x.size()));
+    out.first.push_back(count);
   }
 }
 

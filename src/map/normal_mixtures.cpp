@@ -1,5 +1,7 @@
 #include "map/normal_mixtures.h"
 
+#include <algorithm>
+
 namespace redmap {
 
 NormalMixtures NormalMixtures::one_each(std::size_t hits, std::vector<LaneVector<float>> basis_weights) {
@@ -18,6 +20,13 @@ NormalMixtures NormalMixtures::none(std::size_t basis) {
   mixtures.first.push_back(0);
   mixtures.weights.resize(basis);
   return mixtures;
+}
+
+void NormalMixtures::make_room(std::size_t count) {
+  if (count <= x.size()) return;
+  const std::size_t size = std::max(count, 2 * x.size());
+  for (LaneVector<float>* values : {&x, &y, &xx, &xy, &yy}) values->resize(size);
+  for (LaneVector<float>& values : weights) values.resize(size);
 }
 
 }  // namespace redmap

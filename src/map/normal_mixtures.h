@@ -13,6 +13,7 @@ namespace redmap {
 /// basis reflectances that go with each. Those of hit i are [first[i], first[i + 1]).
 struct NormalMixtures {
   std::vector<std::uint32_t> first;
+  // Vectors may be longer than first.back(); what lies beyond is not there.
   LaneVector<float> x, y, xx, xy, yy;      ///< mean and covariance of the normal's x and y
   std::vector<LaneVector<float>> weights;  ///< [basis][distribution]; over a hit they sum to the basis' weight
   bool one_a_hit = false;                  ///< first[i] = i, and all is padded with zeros
@@ -22,6 +23,8 @@ struct NormalMixtures {
   static NormalMixtures one_each(std::size_t hits, std::vector<LaneVector<float>> basis_weights);
   /// No hit yet.
   static NormalMixtures none(std::size_t basis);
+  /// Lengthens the vectors to `count` distributions at least.
+  void make_room(std::size_t count);
 };
 
 }  // namespace redmap

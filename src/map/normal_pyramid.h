@@ -66,9 +66,10 @@ class NormalPyramid {
   void allocate(std::vector<Extent> extents, int basis);
   Unrounded store_base(const BaseLevel& moments, const WeightPyramid& weights);
   Unrounded store_level(int level, const Unrounded& fine);
-  /// The distributions of one level under a footprint; their shares sum to `part`. False if nothing is covered.
+  /// The distributions of one level under a footprint go behind the `count` that are there; their shares sum to `part`.
+  /// False if nothing is covered.
   bool gather_level(int level, const Footprint& footprint, const WeightPyramid& weights, float part,
-                    NormalMixtures& out) const;
+                    std::uint32_t& count, NormalMixtures& out) const;
   std::uint8_t* texel(int level, int x, int y) {
     const Level& l = levels_[level];
     return data_.data() + l.offset + (static_cast<std::size_t>(y) * l.extent.width + x) * texel_bytes(level);

@@ -34,6 +34,14 @@ std::vector<LaneVector<float>> sums_by_hit(const NormalMixtures& mixtures) {
   return sums;
 }
 
+/// Whether any light arrives at each hit.
+std::vector<std::uint8_t> lit_hits(const ShadingBatch::Light& light) {
+  std::vector<std::uint8_t> lit(light.irradiance.size());
+  for (std::size_t i = 0; i < lit.size(); ++i)
+    lit[i] = light.irradiance[0][i] > 0 || light.irradiance[1][i] > 0 || light.irradiance[2][i] > 0;
+  return lit;
+}
+
 void gather(const Planes<3>& from, std::span<const std::uint32_t> indices, Planes<3>& to) {
   for (int c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < indices.size(); ++i) to[c][i] = from[c][indices[i]];
@@ -110,10 +118,11 @@ void BasisShading::shade_around(const ShadingBatch& batch, const NormalMixtures&
   Planes<3> radiance;
   for (std::size_t light = 0; light < batch.lights.size(); ++light) {
     const DirectionPairs pairs = pairs_in_frames(batch, light, batch.frames);
+    const std::vector<std::uint8_t> lit = lit_hits(batch.lights[light]);
     for (std::size_t b : present) {
       patterns_->radiance_one(b, pairs, radiance);
       multiply(mixtures.weights[b], radiance);
-      spread_radiance(b, pairs, mixtures, radiance, out.decisions, counts);
+      spread_radiance(b, pairs, mixtures, lit, radiance, out.decisions, counts);
       add_lit(nullptr, radiance, batch.lights[light].irradiance, out.radiance);
     }
   }
@@ -122,12 +131,13 @@ void BasisShading::shade_around(const ShadingBatch& batch, const NormalMixtures&
 }
 
 void BasisShading::spread_radiance(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures,
-                                   Planes<3>& radiance, std::span<Decision> decisions, RenderCounts& counts) const {
+                                   std::span<const std::uint8_t> lit, Planes<3>& radiance,
+                                   std::span<Decision> decisions, RenderCounts& counts) const {
   const float narrowest = lobes_[basis].narrowest * lobes_[basis].narrowest;
   const float begin = kSpreadBegin * kSpreadBegin * narrowest, end = kSpreadEnd * kSpreadEnd * narrowest;
   std::vector<std::uint32_t> hits;
   for (std::uint32_t i = 0; i < pairs.size(); ++i)
-    if (mixtures.xx[i] + mixtures.yy[i] > begin && mixtures.weights[basis][i] > 0) hits.push_back(i);
+    if (lit[i] && mixtures.xx[i] + mixtures.yy[i] > begin && mixtures.weights[basis][i] > 0) hits.push_back(i);
   if (hits.empty()) return;
 
   const NormalMixtures some = select(mixtures, basis, hits);
@@ -137,7 +147,7 @@ void BasisShading::spread_radiance(std::size_t basis, const DirectionPairs& pair
   gather(pairs.to_light, hits, some_pairs.to_light), gather(pairs.to_viewer, hits, some_pairs.to_viewer);
   gather(radiance, hits, at_mean);
   std::vector<Decision> some_decisions(hits.size(), Decision::kMeanNormal);
-  integrate_basis(basis, some_pairs, some, 0, &at_mean, integrated, some_decisions, counts);
+  integrate_basis(basis, some_pairs, some, 0, {}, &at_mean, integrated, some_decisions, counts);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     decisions[hits[i]] = std::max(decisions[hits[i]], some_decisions[i]);
     const float part = std::min(1.0f, (some.xx[i] + some.yy[i] - begin) / (end - begin));
@@ -154,9 +164,10 @@ void BasisShading::integrate(const ShadingBatch& batch, const NormalMixtures& mi
   Planes<3> radiance;
   for (std::size_t light = 0; light < batch.lights.size(); ++light) {
     const DirectionPairs pairs = pairs_in_frames(batch, light, batch.frames);
+    const std::vector<std::uint8_t> lit = lit_hits(batch.lights[light]);
     for (std::size_t b : present) {
       radiance = Planes<3>(batch.size());
-      integrate_basis(b, pairs, mixtures, b, nullptr, radiance, out.decisions, counts);
+      integrate_basis(b, pairs, mixtures, b, lit, nullptr, radiance, out.decisions, counts);
       add_lit(nullptr, radiance, batch.lights[light].irradiance, out.radiance);
     }
   }

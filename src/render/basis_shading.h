@@ -39,15 +39,17 @@ class BasisShading {
   void add_constants(std::span<const LaneVector<float>> weights, ShadedBatch& out) const;
   /// Replaces, in the radiance of basis reflectance `basis` at mean normals, what the spread of the normals changes.
   void spread_radiance(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures,
-                       Planes<3>& radiance, std::span<Decision> decisions, RenderCounts& counts) const;
+                       std::span<const std::uint8_t> lit, Planes<3>& radiance, std::span<Decision> decisions,
+                       RenderCounts& counts) const;
   /// The reflectance integrated over `mixtures`, with their weights [weights]. `at_mean`, unless null: what it has at
-  /// the mean of every distribution, times the weight. Raises the decisions of hits that one normal does not do for.
+  /// the mean of every distribution, times the weight. Nothing is asked for hits that are not `lit` (empty: all are).
+  /// Raises the decisions of hits that one normal does not do for.
   void integrate_basis(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures,
-                       std::size_t weights, const Planes<3>* at_mean, Planes<3>& radiance,
-                       std::span<Decision> decisions, RenderCounts& counts) const;
-  /// The same, for reflectances that the model does not fit.
+                       std::size_t weights, std::span<const std::uint8_t> lit, const Planes<3>* at_mean,
+                       Planes<3>& radiance, std::span<Decision> decisions, RenderCounts& counts) const;
+  /// The same for the hits `hits`, where the model does not fit.
   void draw_normals(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures, std::size_t weights,
-                    Planes<3>& radiance, RenderCounts& counts) const;
+                    std::span<const std::uint32_t> hits, Planes<3>& radiance, RenderCounts& counts) const;
 
   std::unique_ptr<BoundPatterns> patterns_;
   std::vector<Rgb> transmittance_, emission_;

@@ -66,27 +66,29 @@ std::array<std::uint32_t, kDrawn> owners_of(const LaneVector<float>& weights, st
 }  // namespace
 
 void BasisShading::draw_normals(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures,
-                                std::size_t weights, Planes<3>& radiance, RenderCounts& counts) const {
+                                std::size_t weights, std::span<const std::uint32_t> hits, Planes<3>& radiance,
+                                RenderCounts& counts) const {
+  if (hits.empty()) return;
   DirectionPairs drawn;
-  drawn.resize(pairs.size() * kDrawn);
-  std::vector<float> total(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const std::uint32_t first = mixtures.first[i], end = mixtures.first[i + 1];
+  drawn.resize(hits.size() * kDrawn);
+  std::vector<float> total(hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const std::uint32_t first = mixtures.first[hits[i]], end = mixtures.first[hits[i] + 1];
     for (std::uint32_t k = first; k < end; ++k) total[i] += mixtures.weights[weights][k];
     const auto owners = owners_of(mixtures.weights[weights], first, end, total[i]);
     for (int n = 0; n < kDrawn; ++n) {
       const Frame frame = make_frame(normal_at(mixtures, owners[n], gaussian_points()[n]), {1, 0, 0});
-      drawn.to_light.set(i * kDrawn + n, frame.to_local(pairs.to_light.get(i)));
-      drawn.to_viewer.set(i * kDrawn + n, frame.to_local(pairs.to_viewer.get(i)));
+      drawn.to_light.set(i * kDrawn + n, frame.to_local(pairs.to_light.get(hits[i])));
+      drawn.to_viewer.set(i * kDrawn + n, frame.to_local(pairs.to_viewer.get(hits[i])));
     }
   }
   Planes<3> answers;
   patterns_->radiance_one(basis, drawn, answers);
   counts.shader_calls += drawn.size();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+  for (std::size_t i = 0; i < hits.size(); ++i) {
     Vec3 sum;
     for (int n = 0; n < kDrawn; ++n) sum += answers.get(i * kDrawn + n);
-    radiance.set(i, sum * (total[i] / kDrawn));
+    radiance.set(hits[i], sum * (total[i] / kDrawn));
   }
 }
 

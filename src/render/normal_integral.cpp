@@ -113,7 +113,7 @@ struct Modelled {
 };
 
 LobeSums sums_of(const NormalMixtures& mixtures, std::size_t weights, const WidthsInUse& in_use, const LobeLanes& lobes,
-                 const HalfVectorLanes& half, std::size_t hit, std::size_t hits) {
+                 const HalfVectorLanes& half, std::span<const std::uint8_t> lit, std::size_t hit, std::size_t hits) {
   LobeSums sums;
   if (mixtures.one_a_hit) {
     add_distribution(in_use, lobes, half, load_normals(mixtures, hit), lanes::load(&mixtures.weights[weights][hit]),
@@ -121,6 +121,7 @@ LobeSums sums_of(const NormalMixtures& mixtures, std::size_t weights, const Widt
     return sums;
   }
   for (std::size_t lane = 0; lane < std::min(kLanes, hits - hit); ++lane) {
+    if (!lit.empty() && !lit[hit + lane]) continue;
     LobeSums of_hit;
     const LobeLanes own_lobes = broadcast(lobes, in_use, lane);
     const HalfVectorLanes own_half = broadcast(half, lane);
@@ -135,11 +136,12 @@ LobeSums sums_of(const NormalMixtures& mixtures, std::size_t weights, const Widt
 }
 
 Modelled model_hits(const LobeModel& model, const WidthsInUse& in_use, const NormalMixtures& mixtures,
-                    std::size_t weights, const PairLanes& pair, std::size_t hit, std::size_t hits) {
+                    std::size_t weights, const PairLanes& pair, std::span<const std::uint8_t> lit, std::size_t hit,
+                    std::size_t hits) {
   const HalfVectorLanes half = half_vector(pair.to_light, pair.to_viewer);
   const LobeLanes lobes = lobes_at(model, in_use, half.theta_degrees);
   Modelled m;
-  const LobeSums sums = sums_of(mixtures, weights, in_use, lobes, half, hit, hits);
+  const LobeSums sums = sums_of(mixtures, weights, in_use, lobes, half, lit, hit, hits);
   m.weight = sums.weight;
   m.whole = integral(in_use, lobes, sums);
   const Float inverse = 1.0f / lanes::max(sums.weight, 1e-12f), x = sums.x * inverse, y = sums.y * inverse;
@@ -174,13 +176,15 @@ void scatter(const Calls& calls, const BoundPatterns& patterns, std::size_t patt
 }  // namespace
 
 void BasisShading::integrate_basis(std::size_t basis, const DirectionPairs& pairs, const NormalMixtures& mixtures,
-                                   std::size_t weights, const Planes<3>* given, Planes<3>& radiance,
-                                   std::span<Decision> decisions, RenderCounts& counts) const {
+                                   std::size_t weights, std::span<const std::uint8_t> lit, const Planes<3>* given,
+                                   Planes<3>& radiance, std::span<Decision> decisions, RenderCounts& counts) const {
   const Lobes& lobes = lobes_[basis];
   if (!lobes.trusted) {
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (has_weight(mixtures, weights, i)) decisions[i] = Decision::kDrawn;
-    return draw_normals(basis, pairs, mixtures, weights, radiance, counts);
+    std::vector<std::uint32_t> wanted;
+    for (std::uint32_t i = 0; i < pairs.size(); ++i)
+      if ((lit.empty() || lit[i]) && has_weight(mixtures, weights, i)) wanted.push_back(i);
+    for (std::uint32_t i : wanted) decisions[i] = Decision::kDrawn;
+    return draw_normals(basis, pairs, mixtures, weights, wanted, radiance, counts);
   }
   const std::size_t hits = pairs.size();
   std::vector<Modelled> modelled;
@@ -188,7 +192,7 @@ void BasisShading::integrate_basis(std::size_t basis, const DirectionPairs& pair
   Calls at_mean, at_brightest;
   for (std::size_t hit = 0; hit < hits; hit += kLanes) {
     const PairLanes pair{load(pairs.to_light, hit), load(pairs.to_viewer, hit)};
-    modelled.push_back(model_hits(lobes.model, lobes.in_use, mixtures, weights, pair, hit, hits));
+    modelled.push_back(model_hits(lobes.model, lobes.in_use, mixtures, weights, pair, lit, hit, hits));
     const Modelled& m = modelled.back();
     const std::size_t count = std::min(kLanes, hits - hit);
     if (!given) at_mean.add(hit, count, m.weight > 0.0f && m.part < 1.0f, m.mean, pair);
