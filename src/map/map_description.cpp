@@ -139,7 +139,7 @@ ShaderOrigin parse_origin(const Json& root, const std::string& where) {
   const Json& images = reader.get("images", "an object");
   const Reader image_reader(images, where + ": shader_origin: images");
   for (const auto& [name, image] : images.items()) {
-    const Reader entry(image, where + ": shader_origin: images: " + name);
+    const Reader entry(image, fmt::format("{}: shader_origin: images: {}", where, name));
     const Json& is_data = entry.get("is_data", "true or false");
     if (!is_data.is_boolean()) entry.refuse("is_data", "true or false");
     origin.images[name] = {entry.text("file"), is_data.get<bool>()};

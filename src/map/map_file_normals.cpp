@@ -41,16 +41,17 @@ struct Band {
         channels(kNamed + basis),
         values(static_cast<std::size_t>(rows) * width * channels * NormalPyramid::kGaussians) {}
 
-  half* texel(int x, int y) {
-    return &values[(static_cast<std::size_t>(y - first_row) * width + x) * channels * NormalPyramid::kGaussians];
+  half* gaussian(int x, int y, int g) {
+    const std::size_t texel = static_cast<std::size_t>(y - first_row) * width + x;
+    return &values[(texel * NormalPyramid::kGaussians + g) * channels];
   }
   Imf::FrameBuffer frame_buffer() {
     Imf::FrameBuffer buffer;
-    const std::size_t size = channels * NormalPyramid::kGaussians * sizeof(half), row = size * width;
+    const std::size_t size = sizeof(half) * channels * NormalPyramid::kGaussians, row = size * width;
     char* origin = reinterpret_cast<char*>(values.data()) - static_cast<std::ptrdiff_t>(first_row * row);
     for (int g = 0; g < NormalPyramid::kGaussians; ++g)
       for (int c = 0; c < channels; ++c)
-        buffer.insert(channel_name(g, c), Imf::Slice(Imf::HALF, origin + (g * channels + c) * sizeof(half), size, row));
+        buffer.insert(channel_name(g, c), Imf::Slice(Imf::HALF, origin + sizeof(half) * (g * channels + c), size, row));
     return buffer;
   }
 };
@@ -129,7 +130,7 @@ void write_normals(Imf::MultiPartOutputFile& file, int part, const NormalPyramid
         const std::uint8_t* bytes = normals.row(level, y).data();
         for (int x = 0; x < band.width; ++x)
           for (int g = 0; g < gaussians; ++g, bytes += kPackedBytes + others)
-            encode(bytes, others, band.texel(x, y) + g * band.channels);
+            encode(bytes, others, band.gaussian(x, y, g));
       }
       out.setFrameBuffer(band.frame_buffer());
       out.writeTiles(0, out.numXTiles(level) - 1, b, b, level);
@@ -141,9 +142,7 @@ NormalPyramid read_normals(Imf::MultiPartInputFile& file, int part, const Weight
   check_header(file.header(part), weights, where);
   if (!file.partComplete(part))
     throw Error("{}: part {}: expected all tiles, found a truncated file", where, kNormalsPart);
-  std::vector<Extent> extents;
-  for (int level = 0; level < weights.levels(); ++level) extents.push_back(weights.extent(level));
-  NormalPyramid normals(std::move(extents), weights.channels());
+  NormalPyramid normals(weights);
   Imf::TiledInputPart in(file, part);
   for (int level = 0; level < normals.levels(); ++level)
     for (int b = 0; b < in.numYTiles(level); ++b) {
@@ -155,7 +154,7 @@ NormalPyramid read_normals(Imf::MultiPartInputFile& file, int part, const Weight
         std::uint8_t* bytes = normals.row(level, y).data();
         for (int x = 0; x < band.width; ++x)
           for (int g = 0; g < gaussians; ++g, bytes += kPackedBytes + others) {
-            const half* from = band.texel(x, y) + g * band.channels;
+            const half* from = band.gaussian(x, y, g);
             const bool present = level == 0 ? weights.coverage(0, x, y) > 0 : static_cast<float>(from[5]) > 0;
             decode(from, others, present, where, bytes);
           }

@@ -70,34 +70,35 @@ bool NormalPyramid::gather_level(int level, const Footprint& footprint, const We
   if (x1 < x0 || y1 < y0) return false;
   const std::uint32_t before = count;
   out.make_room(count + static_cast<std::size_t>(x1 - x0 + 1) * (y1 - y0 + 1) * kGaussians);
-  const std::span<const float> scales = weights.scales();
+  const int stride = weights.texel_stride(), gaussians = level == 0 ? 1 : kGaussians;
   float total = 0;
-  for (int y = y0; y <= y1; ++y)
+  for (int y = y0; y <= y1; ++y) {
+    const std::uint8_t* weight_row = weights.row(level, y).data();
+    const std::uint8_t* normal_row = texel(level, 0, y);
     for (int x = x0; x <= x1; ++x) {
       const Vec2 offset{static_cast<float>(x) + 0.5f - centre.x, static_cast<float>(y) + 0.5f - centre.y};
       const float a = overlap(dot(to_a, offset), half_a), b = overlap(dot(to_b, offset), half_b);
       if (a <= 0 || b <= 0) continue;
       const int column = weights.wraps_u() ? ((x % width) + width) % width : x;
-      const float area = a * b * weights.coverage(level, column, y);
-      if (area <= 0) continue;
+      const std::uint8_t* own = weight_row + static_cast<std::size_t>(column) * stride;  // coverage, then weights
+      if (own[0] == 0) continue;
+      const float area = a * b * static_cast<float>(own[0]);
       total += area;
-      const std::uint8_t* bytes = texel(level, column, y);
-      if (level == 0) {
+      const std::uint8_t* bytes = normal_row + static_cast<std::size_t>(column) * texel_bytes(level);
+      for (int g = 0; g < gaussians; ++g, bytes += 7 + basis_) {
+        const std::uint8_t* parts = level == 0 ? own + 1 : bytes + 7;
+        const float share = level == 0 ? area : area * static_cast<float>(bytes[6]) * (1.0f / 255);
+        if (share == 0) continue;
         set(unpack(packed_at(bytes)), count, out);
-        for (int i = 0; i < basis_; ++i) out.weights[i][count] = area * weights.value(0, column, y, i);
-        ++count;
-        continue;
-      }
-      for (int g = 0; g < kGaussians; ++g, bytes += 7 + basis_) {
-        if (bytes[6] == 0) continue;
-        set(unpack(packed_at(bytes)), count, out);
-        const float share = area * static_cast<float>(bytes[6]) * (1.0f / (255 * 255));
-        for (int i = 0; i < basis_; ++i) out.weights[i][count] = share * scales[i] * static_cast<float>(bytes[7 + i]);
+        for (int i = 0; i < basis_; ++i) out.weights[i][count] = share * static_cast<float>(parts[i]);
         ++count;
       }
     }
-  for (LaneVector<float>& w : out.weights)
-    for (std::uint32_t i = before; i < count; ++i) w[i] *= part / total;
+  }
+  for (int i = 0; i < basis_ && total > 0; ++i) {
+    const float scale = part / total * weights.scales()[i] * (1.0f / 255);
+    for (std::uint32_t k = before; k < count; ++k) out.weights[i][k] *= scale;
+  }
   return total > 0;
 }
 

@@ -110,7 +110,7 @@ void store(const MixtureReduction& mixture, int basis, std::uint8_t* to) {
     const int share = i + 1 == mixture.size() ? left : std::min<int>(left, quantised(m.share / total));
     left -= share;
     if (share == 0) continue;
-    std::uint8_t* gaussian = to + i * (7 + basis);
+    std::uint8_t* gaussian = to + static_cast<std::ptrdiff_t>(i) * (7 + basis);
     const PackedNormals packed = pack(m.gaussian());
     std::copy(packed.bytes.begin(), packed.bytes.end(), gaussian);
     gaussian[6] = static_cast<std::uint8_t>(share);
@@ -120,17 +120,15 @@ void store(const MixtureReduction& mixture, int basis, std::uint8_t* to) {
 
 }  // namespace
 
-void NormalPyramid::allocate(std::vector<Extent> extents, int basis) {
-  basis_ = basis;
+NormalPyramid::NormalPyramid(const WeightPyramid& weights) : basis_(weights.channels()), levels_(weights.levels()) {
   std::size_t size = 0;
-  for (const Extent& e : extents) {
-    levels_.push_back({e, size});
-    size += static_cast<std::size_t>(e.width) * e.height * texel_bytes(static_cast<int>(levels_.size()) - 1);
+  for (int level = 0; level < levels(); ++level) {
+    const Extent e = weights.extent(level);
+    levels_[level] = {e, size};
+    size += static_cast<std::size_t>(e.width) * e.height * texel_bytes(level);
   }
   data_.assign(size, 0);
 }
-
-NormalPyramid::NormalPyramid(std::vector<Extent> levels, int basis) { allocate(std::move(levels), basis); }
 
 std::span<std::uint8_t> NormalPyramid::row(int level, int y) {
   return {texel(level, 0, y), static_cast<std::size_t>(extent(level).width) * texel_bytes(level)};
@@ -217,13 +215,10 @@ NormalPyramid::Unrounded NormalPyramid::store_level(int level, const Unrounded& 
   return coarse;
 }
 
-NormalPyramid::NormalPyramid(const BaseLevel& moments, const WeightPyramid& weights) {
+NormalPyramid::NormalPyramid(const BaseLevel& moments, const WeightPyramid& weights) : NormalPyramid(weights) {
   if (moments.channels != kMoments || moments.extent != weights.extent(0))
     throw Error("normals: expected {} moments a texel of {}x{}, found {} of {}x{}", kMoments, weights.extent(0).width,
                 weights.extent(0).height, moments.channels, moments.extent.width, moments.extent.height);
-  std::vector<Extent> extents;
-  for (int level = 0; level < weights.levels(); ++level) extents.push_back(weights.extent(level));
-  allocate(std::move(extents), weights.channels());
   Unrounded fine = store_base(moments, weights);
   for (int level = 1; level < levels(); ++level) fine = store_level(level, fine);
 }

@@ -25,7 +25,25 @@ struct PackedNormals {
   std::array<std::uint8_t, 6> bytes{};
 };
 PackedNormals pack(const NormalGaussian& normals);
-NormalGaussian unpack(const PackedNormals& packed);
+
+/// Steps of a mean, either side of zero.
+inline constexpr float kPackedMeanSteps = 2047;
+/// What the other bytes stand for.
+struct PackedTables {
+  std::array<float, 256> variance, cosine, sine;  ///< of twice the angle
+  PackedTables();
+};
+extern const PackedTables kPackedTables;
+
+inline NormalGaussian unpack(const PackedNormals& packed) {
+  const auto& b = packed.bytes;
+  const int x = b[0] | (b[1] & 15) << 8, y = b[1] >> 4 | b[2] << 4;
+  const float half_sum = 0.5f * (kPackedTables.variance[b[3]] + kPackedTables.variance[b[4]]);
+  const float half_difference = 0.5f * (kPackedTables.variance[b[3]] - kPackedTables.variance[b[4]]);
+  const float along = half_difference * kPackedTables.cosine[b[5]];
+  return {static_cast<float>(x - 2048) * (1 / kPackedMeanSteps), static_cast<float>(y - 2048) * (1 / kPackedMeanSteps),
+          half_sum + along, half_difference * kPackedTables.sine[b[5]], half_sum - along};
+}
 
 class NormalPyramid {
  public:
@@ -48,8 +66,8 @@ class NormalPyramid {
   int texel_bytes(int level) const { return level == 0 ? 6 : kGaussians * (7 + basis_); }
   std::span<std::uint8_t> row(int level, int y);
   std::span<const std::uint8_t> row(int level, int y) const;
-  /// All zero, to be filled through row(): for readers.
-  NormalPyramid(std::vector<Extent> levels, int basis);
+  /// All zero, of the levels and basis of `weights`, to be filled through row(): for readers.
+  explicit NormalPyramid(const WeightPyramid& weights);
 
   /// Appends, hit by hit, the distributions under `footprints`: every texel that a footprint overlaps, by the area of
   /// the overlap and its coverage, on the level where about `texels` to twice as many lie across it. `weights` is the
@@ -63,7 +81,6 @@ class NormalPyramid {
     std::size_t offset = 0;
   };
   class Unrounded;
-  void allocate(std::vector<Extent> extents, int basis);
   Unrounded store_base(const BaseLevel& moments, const WeightPyramid& weights);
   Unrounded store_level(int level, const Unrounded& fine);
   /// The distributions of one level under a footprint go behind the `count` that are there; their shares sum to `part`.

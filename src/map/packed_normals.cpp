@@ -8,7 +8,6 @@
 namespace redmap {
 namespace {
 
-constexpr float kMeanSteps = 2047;  // either side of zero
 /// Standard deviations from .001 to 1, 2.8 % apart; byte 0 is none at all.
 constexpr float kSmallest = 1e-3f, kLogSteps = 254;
 constexpr float kLogRange = 6.90775528f;  // log(1 / kSmallest)
@@ -21,25 +20,21 @@ std::uint8_t packed_deviation(float variance) {
   return static_cast<std::uint8_t>(1 + std::lrint(std::clamp(step, 0.0f, kLogSteps)));
 }
 
-/// What bytes stand for, computed once.
-struct Tables {
-  std::array<float, 256> variance, cosine, sine;  ///< of twice the angle
-  Tables() {
-    for (int i = 0; i < 256; ++i) {
-      const float deviation = kSmallest * std::exp(static_cast<float>(i - 1) * (kLogRange / kLogSteps));
-      variance[i] = i == 0 ? 0 : deviation * deviation;
-      const float twice = 2 * kPi * static_cast<float>(i) / kAngleSteps;
-      cosine[i] = std::cos(twice), sine[i] = std::sin(twice);
-    }
-  }
-};
-const Tables kTables;
-
 }  // namespace
+
+PackedTables::PackedTables() {
+  for (int i = 0; i < 256; ++i) {
+    const float deviation = kSmallest * std::exp(static_cast<float>(i - 1) * (kLogRange / kLogSteps));
+    variance[i] = i == 0 ? 0 : deviation * deviation;
+    const float twice = 2 * kPi * static_cast<float>(i) / kAngleSteps;
+    cosine[i] = std::cos(twice), sine[i] = std::sin(twice);
+  }
+}
+const PackedTables kPackedTables;
 
 PackedNormals pack(const NormalGaussian& n) {
   const auto mean = [](float value) {
-    return static_cast<std::uint32_t>(std::lrint(std::clamp(value, -1.0f, 1.0f) * kMeanSteps) + 2048);
+    return static_cast<std::uint32_t>(std::lrint(std::clamp(value, -1.0f, 1.0f) * kPackedMeanSteps) + 2048);
   };
   const std::uint32_t x = mean(n.x), y = mean(n.y);
   const float half_sum = 0.5f * (n.xx + n.yy), half_difference = 0.5f * (n.xx - n.yy);
@@ -49,16 +44,6 @@ PackedNormals pack(const NormalGaussian& n) {
   return {{static_cast<std::uint8_t>(x & 255), static_cast<std::uint8_t>(x >> 8 | (y & 15) << 4),
            static_cast<std::uint8_t>(y >> 4), packed_deviation(half_sum + root), packed_deviation(half_sum - root),
            static_cast<std::uint8_t>(angle)}};
-}
-
-NormalGaussian unpack(const PackedNormals& packed) {
-  const auto& b = packed.bytes;
-  const int x = b[0] | (b[1] & 15) << 8, y = b[1] >> 4 | b[2] << 4;
-  const float half_sum = 0.5f * (kTables.variance[b[3]] + kTables.variance[b[4]]);
-  const float half_difference = 0.5f * (kTables.variance[b[3]] - kTables.variance[b[4]]);
-  const float along = half_difference * kTables.cosine[b[5]];
-  return {static_cast<float>(x - 2048) * (1 / kMeanSteps), static_cast<float>(y - 2048) * (1 / kMeanSteps),
-          half_sum + along, half_difference * kTables.sine[b[5]], half_sum - along};
 }
 
 }  // namespace redmap

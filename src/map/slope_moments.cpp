@@ -27,7 +27,7 @@ NormalsOfSlopes normals_of_slopes(const float* moments) {
 Covariance2 covariance_in_frame(const NormalsOfSlopes& normals, const Frame& frame) {
   // A change of slope moves the end of (x, y, 1), which is 1 / cosine long, and of that only what is across counts.
   const float cosine = normals.mean.z;
-  const auto [xx, xy, yy] = normals.covariance;
+  const float xx = normals.covariance.xx, xy = normals.covariance.xy, yy = normals.covariance.yy;
   const auto between = [&](Vec3 a, Vec3 b) {
     return cosine * cosine * (a.x * b.x * xx + (a.x * b.y + a.y * b.x) * xy + a.y * b.y * yy);
   };
