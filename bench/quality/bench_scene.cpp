@@ -15,7 +15,7 @@ namespace redmap::bench {
 
 namespace {
 
-constexpr float kFieldDegrees = 40;  // the design's view: 512 pixels over 40 degrees
+constexpr float kFieldDegrees = 40;  // 512 pixels over 40 degrees
 constexpr float kPixelsPerField = 512;
 constexpr float kMargin = 1.15f;  // of the picture around the object's bounding sphere
 
@@ -114,7 +114,7 @@ Scene make_bench_scene(const std::shared_ptr<const Surface>& surface, const std:
                                      17.0f + 137.508f * static_cast<float>(view), 0};
   scene.objects.push_back(std::move(object));
   scene = turned(scene, 0);
-  // Irradiance about pi at the object, as in the prototypes: a white Lambert surface facing the light is about 1.
+  // Irradiance about pi at the object: a white Lambert surface facing the light is about 1.
   const float radius = bounding_radius(*surface);
   Light light;
   light.position = normalized(Vec3{0.45f, 0.55f, 1}) * (6 * radius);
