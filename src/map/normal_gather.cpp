@@ -32,6 +32,15 @@ Footprint widened(const Footprint& footprint, Extent extent, float& width) {
 /// How much of [a - half, a + half] lies in [-1/2, 1/2].
 float overlap(float a, float half) { return std::min(a + half, 0.5f) - std::max(a - half, -0.5f); }
 
+/// Index of the texel at `x`, from `low` to `high`: footprints may reach farther than an integer does.
+int texel_at(float x, int low, int high) {
+  return static_cast<int>(std::clamp(std::floor(x), static_cast<float>(low), static_cast<float>(high)));
+}
+
+bool is_finite(const Footprint& f) {
+  return std::isfinite(f.uv.x + f.uv.y + f.duv_dx.x + f.duv_dx.y + f.duv_dy.x + f.duv_dy.y);
+}
+
 void set(const NormalGaussian& normals, std::size_t i, NormalMixtures& out) {
   out.x[i] = normals.x, out.y[i] = normals.y;
   out.xx[i] = normals.xx, out.xy[i] = normals.xy, out.yy[i] = normals.yy;
@@ -59,15 +68,18 @@ bool NormalPyramid::gather_level(int level, const Footprint& footprint, const We
   const Vec2 centre{footprint.uv.x * columns, footprint.uv.y * rows};
   const float reach_x = 0.5f * (std::abs(dx.x) + std::abs(dy.x)) + 0.5f;
   const float reach_y = 0.5f * (std::abs(dx.y) + std::abs(dy.y)) + 0.5f;
-  const int y0 = std::max(0, static_cast<int>(std::floor(centre.y - reach_y)));
-  const int y1 = std::min(height - 1, static_cast<int>(std::floor(centre.y + reach_y)));
-  int x0 = static_cast<int>(std::floor(centre.x - reach_x)), x1 = static_cast<int>(std::floor(centre.x + reach_x));
-  if (weights.wraps_u())
+  // Beyond the edge on either side lies a texel that is not there, or a turn of those that are.
+  const bool wraps = weights.wraps_u();
+  const int y0 = std::max(0, texel_at(centre.y - reach_y, -1, height));
+  const int y1 = std::min(height - 1, texel_at(centre.y + reach_y, -1, height));
+  int x0 = texel_at(centre.x - reach_x, wraps ? -width : -1, wraps ? 2 * width : width);
+  int x1 = texel_at(centre.x + reach_x, wraps ? -width : -1, wraps ? 2 * width : width);
+  if (wraps)
     x1 = std::min(x1, x0 + width - 1);
   else
     x0 = std::max(x0, 0), x1 = std::min(x1, width - 1);
-
   if (x1 < x0 || y1 < y0) return false;
+
   const std::uint32_t before = count;
   out.make_room(count + static_cast<std::size_t>(x1 - x0 + 1) * (y1 - y0 + 1) * kGaussians);
   const int stride = weights.texel_stride(), gaussians = level == 0 ? 1 : kGaussians;
@@ -79,7 +91,7 @@ bool NormalPyramid::gather_level(int level, const Footprint& footprint, const We
       const Vec2 offset{static_cast<float>(x) + 0.5f - centre.x, static_cast<float>(y) + 0.5f - centre.y};
       const float a = overlap(dot(to_a, offset), half_a), b = overlap(dot(to_b, offset), half_b);
       if (a <= 0 || b <= 0) continue;
-      const int column = weights.wraps_u() ? ((x % width) + width) % width : x;
+      const int column = wraps ? ((x % width) + width) % width : x;
       const std::uint8_t* own = weight_row + static_cast<std::size_t>(column) * stride;  // coverage, then weights
       if (own[0] == 0) continue;
       const float area = a * b * static_cast<float>(own[0]);
@@ -106,17 +118,19 @@ void NormalPyramid::gather(std::span<const Footprint> footprints, const WeightPy
                            NormalMixtures& out) const {
   for (const Footprint& each : footprints) {
     float width = 0;
-    const Footprint footprint = widened(each, extent(0), width);
+    const bool usable = is_finite(each);
+    const Footprint footprint = usable ? widened(each, extent(0), width) : each;
     const float position =
         std::clamp(std::log2(std::max(width / texels, 1.0f)), 0.0f, static_cast<float>(levels() - 1));
     const int level = std::min(static_cast<int>(position), std::max(0, levels() - 2));
     const float coarse = std::clamp((position - static_cast<float>(level) - kBlendFrom) / (1 - kBlendFrom), 0.0f, 1.0f);
     std::uint32_t count = out.first.back();
-    const bool found = coarse < 1 && gather_level(level, footprint, weights, 1 - coarse, count, out);
+    const bool found = usable && coarse < 1 && gather_level(level, footprint, weights, 1 - coarse, count, out);
     // What is covered on the finer level is so on the coarser.
-    const bool found_coarse = coarse > 0 && gather_level(level + 1, footprint, weights, found ? coarse : 1, count, out);
+    const bool found_coarse =
+        usable && coarse > 0 && gather_level(level + 1, footprint, weights, found ? coarse : 1, count, out);
     if (!found && !found_coarse) {
-      // Between charts: what was pulled in there, at one normal.
+      // Between charts, or nowhere: what the weights have there, at one normal.
       const FilteredTexel texel = weights.lookup(each);
       out.make_room(count + 1);
       set({}, count, out);

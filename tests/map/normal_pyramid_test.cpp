@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/random.h"
 
@@ -149,6 +150,23 @@ TEST(NormalPyramid, BetweenLevels_NothingPops) {
       EXPECT_NEAR(variance, last, 0.05 * last) << size;
     }
     last = variance;
+  }
+}
+
+TEST(NormalPyramid, FootprintsThatAreNoNumbers_OrReachFarBeyondTheMap_AnswerWithAllTheWeight) {
+  const Planted p = plant(
+      {64, 32},
+      [](int, int) {
+        return Vec2{0.1f, 0};
+      },
+      [](int, int) { return 0.5f; });
+  const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  for (const Footprint& footprint :
+       {Footprint{{nan, 0.5f}, {0.1f, 0}, {0, 0.1f}}, Footprint{{0.5f, 0.5f}, {infinity, 0}, {0, 0.1f}},
+        Footprint{{0.5f, 0.5f}, {1e12f, 0}, {0, 1e12f}}, Footprint{{1e12f, -1e12f}, {0.1f, 0}, {0, 0.1f}},
+        Footprint{{0.5f, 0.5f}, {0, 0}, {0, 0}}}) {
+    const auto m = moments_of(gather(p, footprint), 0);
+    EXPECT_NEAR(m[0], 0.5, 0.005);
   }
 }
 
