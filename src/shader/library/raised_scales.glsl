@@ -1,7 +1,7 @@
 // Hexagonal scales around the y axis that bulge over dull skin: green ones, and golden ones with a sharp highlight.
 #include "include/bump.glsl"
-#include "include/hexagons.glsl"
 #include "include/phong.glsl"
+#include "include/scale_pattern.glsl"
 
 struct Parameters {
   float around;         // 24 [3, 240]: columns of scales around the y axis (a whole multiple of 3 closes the pattern)
@@ -16,20 +16,12 @@ struct Parameters {
 };
 
 struct Pattern {
-  vec3 diffuse;
-  vec3 specular;
-  float exponent;
+  Scale scale;
 };
 
 Pattern pattern(Surface at, Parameters p) {
-  Hexagon scale = hexagon_around_y(at.position, p.around, p.rows);
-  bool is_skin = scale.edge < p.gap;
-  bool is_gold = mod(mod(scale.column, p.around) + 5.0 * scale.row + 1.0, 3.0) < 0.5;
-  Pattern m;
-  m.diffuse = mix(mix(p.green, p.gold, bvec3(is_gold)), p.skin, bvec3(is_skin));
-  m.specular = mix(mix(vec3(0.08), vec3(0.5, 0.42, 0.2), bvec3(is_gold)), vec3(0.02), bvec3(is_skin));
-  m.exponent = mix(mix(15.0, p.gold_exponent, is_gold), 8.0, is_skin);
-  return m;
+  Hexagon hexagon = hexagon_around_y(at.position, p.around, p.rows);
+  return Pattern(scale_at(hexagon, p.around, p.gap, p.skin, p.green, p.gold, p.gold_exponent));
 }
 
 // Height over the skin at (x, y) of the tiling, 0 to 1: a quarter of an ellipse from the gap inwards.
@@ -51,7 +43,7 @@ vec3 shading_normal(Surface at, Parameters p) {
 }
 
 vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
-  return phong_radiance(m.diffuse, m.specular, m.exponent, to_light, to_viewer);
+  return phong_radiance(m.scale.diffuse, m.scale.specular, m.scale.exponent, to_light, to_viewer);
 }
 
-Material material(Pattern m) { return phong_material(m.diffuse, m.specular, m.exponent); }
+Material material(Pattern m) { return phong_material(m.scale.diffuse, m.scale.specular, m.scale.exponent); }
