@@ -5,33 +5,10 @@
 #   end_to_end_test.sh REDMAP_BINARY
 set -u
 redmap=$1
+. "$(dirname "$0")/run_redmap.sh"
 folder=$(mktemp -d)
 trap 'umount "$folder/small" 2>/dev/null; rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
-failures=0
-fail() {
-  echo "$1"
-  failures=$((failures + 1))
-}
-
-# runs ARGUMENTS...: `redmap ARGUMENTS` must succeed in silence on stderr.
-runs() {
-  "$redmap" "$@" >stdout 2>stderr && [ ! -s stderr ] || fail "redmap $*: expected success, found: $(cat stderr)"
-}
-
-# refuses PART ARGUMENTS...: `redmap ARGUMENTS` must exit with 1 and one line on stderr that holds PART.
-refuses() {
-  local part=$1 status
-  shift
-  "$redmap" "$@" >stdout 2>stderr
-  status=$?
-  [ $status -eq 1 ] && [ "$(wc -l <stderr)" -eq 1 ] && grep -qF -- "$part" stderr ||
-    fail "redmap $*: expected status 1 and one line with \"$part\", found status $status and: $(cat stderr)"
-}
-
-# says PART: the last command printed PART.
-says() { grep -qF -- "$1" stdout || fail "expected \"$1\", found: $(cat stdout)"; }
-
 # holds FILE CONDITION: the JSON in FILE, as the variable j, fulfils a Python condition.
 holds() {
   python3 -c 'import json, sys; j = json.load(open(sys.argv[1])); sys.exit(0 if eval(sys.argv[2]) else 1)' "$1" "$2" ||

@@ -5,33 +5,11 @@
 set -u
 redmap=$1
 examples=$2
+. "$(dirname "$0")/run_redmap.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp -r "$examples" "$folder/examples"
 cd "$folder" || exit 1
-failures=0
-fail() {
-  echo "$1"
-  failures=$((failures + 1))
-}
-
-# runs ARGUMENTS...: `redmap ARGUMENTS` must succeed in silence on stderr.
-runs() {
-  "$redmap" "$@" >stdout 2>stderr && [ ! -s stderr ] || fail "redmap $*: expected success, found: $(cat stderr)"
-}
-
-# refuses PART ARGUMENTS...: `redmap ARGUMENTS` must exit with 1 and one line on stderr that holds PART.
-refuses() {
-  local part=$1 status
-  shift
-  "$redmap" "$@" >stdout 2>stderr
-  status=$?
-  [ $status -eq 1 ] && [ "$(wc -l <stderr)" -eq 1 ] && grep -qF -- "$part" stderr ||
-    fail "redmap $*: expected status 1 and one line with \"$part\", found status $status and: $(cat stderr)"
-}
-
-says() { grep -qF -- "$1" stdout || fail "expected \"$1\", found: $(cat stdout)"; }
-
 small=(-D camera.width=96 -D camera.height=40)
 
 # The examples, small. Their maps are the same for any number of threads.
