@@ -8,6 +8,10 @@
 
 #include "device/glsl_compiler.h"
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
 namespace redmap {
 namespace {
 
@@ -125,6 +129,15 @@ TEST(Device, ReadsAndWritesOutOfBounds_StayInBounds) {
 }
 
 // The device goes on working on what took too long, so it must not be used again, and nothing of it be freed.
+/// While it lives, what is allocated may stay. A device that was given up is kept on purpose, since it may still write;
+/// the validation layer forgets at exit where its parts are, and whether the leak checker still sees them is chance.
+struct MayStay {
+#ifdef __SANITIZE_ADDRESS__
+  MayStay() { __lsan_disable(); }
+  ~MayStay() { __lsan_enable(); }
+#endif
+};
+
 TEST(Device, WorkThatDoesNotEndInTime_IsGivenUp_AndAnotherDeviceCanBeOpened) {
   const std::string slow = R"(void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -133,6 +146,7 @@ TEST(Device, WorkThatDoesNotEndInTime_IsGivenUp_AndAnotherDeviceCanBeOpened) {
     b[i] = x;
   })";
   {
+    [[maybe_unused]] const MayStay given_up;
     const auto device = Device::open();
     const ComputePipeline pipeline(*device, compile(slow), kInputs);
     // llvmpipe leaves a loop after 65535 rounds: many groups take their time all the same.
