@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "quality/bench_scene.h"
-#include "render/placement.h"
+#include "scene/placement.h"
 #include "surface/mesh.h"
 
 namespace redmap::bench {

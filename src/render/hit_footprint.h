@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "map/footprint.h"
-#include "render/camera_rays.h"
+#include "scene/camera_rays.h"
 #include "surface/surface.h"
 
 namespace redmap {

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "render/tile.h"
+#include "scene/map_shader.h"
 
 namespace redmap {
 
@@ -28,23 +29,6 @@ std::unique_ptr<ObjectShading> make_shading(const Object& object, Method method,
 }
 
 bool uses_map(Method method) { return method == Method::kMap || method == Method::kPaper; }
-
-/// Throws Error unless `map` was baked for `object` as it is now.
-void require_map_of(const Object& object, const ReductionMap& map) {
-  const auto refuse = [&](const std::string& what) {
-    throw Error("object '{}': its map {} was baked {}: bake it again", object.name, object.map_path.string(), what);
-  };
-  const ShaderInfo& shader = object.shader->info();
-  if (map.surface_fingerprint != object.surface->fingerprint()) refuse("on another surface");
-  if (map.shader != shader.name) refuse(fmt::format("from shader '{}', not '{}'", map.shader, shader.name));
-  if (map.shader_hash != shader.text_hash) refuse(fmt::format("from another version of shader '{}'", shader.name));
-  for (std::size_t i = 0; i < shader.parameters.size(); ++i) {
-    const std::string& name = shader.parameters[i].name;
-    const auto found = map.parameters.find(name);
-    if (found == map.parameters.end() || found->second != object.shader->parameters()[i])
-      refuse(fmt::format("with another value of parameter '{}'", name));
-  }
-}
 
 /// Throws Error if something that the method needs is missing.
 void require_data(const Object& object, Method method, const ObjectData& data) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "render/placement.h"
+#include "scene/placement.h"
 #include "scene/scene.h"
 
 namespace redmap {

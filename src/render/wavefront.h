@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "render/camera_rays.h"
 #include "render/shading.h"
 #include "render/tracer.h"
+#include "scene/camera_rays.h"
 
 namespace redmap {
 

@@ -18,6 +18,22 @@ std::shared_ptr<const Shader> shader_of(const ReductionMap& map, const std::file
               path.string(), map.shader);
 }
 
+void require_map_of(const Object& object, const ReductionMap& map) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error("object '{}': its map {} was baked {}: bake it again", object.name, object.map_path.string(), what);
+  };
+  const ShaderInfo& shader = object.shader->info();
+  if (map.surface_fingerprint != object.surface->fingerprint()) refuse("on another surface");
+  if (map.shader != shader.name) refuse(fmt::format("from shader '{}', not '{}'", map.shader, shader.name));
+  if (map.shader_hash != shader.text_hash) refuse(fmt::format("from another version of shader '{}'", shader.name));
+  for (std::size_t i = 0; i < shader.parameters.size(); ++i) {
+    const std::string& name = shader.parameters[i].name;
+    const auto found = map.parameters.find(name);
+    if (found == map.parameters.end() || found->second != object.shader->parameters()[i])
+      refuse(fmt::format("with another value of parameter '{}'", name));
+  }
+}
+
 ShaderOrigin origin_of(const ShaderInfo& shader, const std::filesystem::path& map_folder) {
   ShaderOrigin origin;
   if (shader.file.empty()) return origin;

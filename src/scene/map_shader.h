@@ -6,6 +6,7 @@
 #include <string>
 
 #include "map/reduction_map.h"
+#include "scene/scene.h"
 #include "shader/shader.h"
 
 namespace redmap {
@@ -14,6 +15,9 @@ namespace redmap {
 /// is none of its name or file any more, or its text has changed.
 std::shared_ptr<const Shader> shader_of(const ReductionMap& map, const std::filesystem::path& path,
                                         const std::string& device = "");
+
+/// Throws Error unless `map` was baked for `object` as it is now.
+void require_map_of(const Object& object, const ReductionMap& map);
 
 /// Where `shader` comes from, seen from the folder of a map. Nothing for shaders of the library.
 ShaderOrigin origin_of(const ShaderInfo& shader, const std::filesystem::path& map_folder);

@@ -11,7 +11,7 @@
 #include "normals/cases.h"
 #include "normals/summary.h"
 #include "quality/bench_scene.h"
-#include "render/placement.h"
+#include "scene/placement.h"
 
 namespace redmap::bench {
 namespace {

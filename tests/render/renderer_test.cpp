@@ -7,8 +7,8 @@
 #include "bake/baselines.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "render/camera_rays.h"
 #include "render_test_support.h"
+#include "scene/camera_rays.h"
 
 namespace redmap {
 namespace {
