@@ -7,6 +7,7 @@
 
 #include "analysis/lobe_fit.h"
 #include "bake/normals.h"
+#include "bake/passes.h"
 #include "bake/project.h"
 #include "bake/sample.h"
 #include "bake/surface_cells.h"
@@ -79,6 +80,11 @@ void fit_lobes(const Shader& shader, ReductionMap& map) {
 }  // namespace
 
 ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options, BakeReport* report) {
+  return bake(surface, shader, options, *make_cpu_passes(), report);
+}
+
+ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options, TexelPasses& passes,
+                  BakeReport* report) {
   validate(options);
   BakeReport ours;
   ours.stages.reserve(8);
@@ -86,20 +92,21 @@ ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOption
   BakeMonitor monitor(options.progress);
 
   const TexelGrid grid(surface, options.size);
-  SampledTexels sampled = sample_texels(grid, shader, options, monitor);
+  const BakeJob job{grid, shader, options, monitor};
+  SampledTexels sampled = sample_texels(job, passes);
   ours.distinct_reflectances = sampled.unique.distinct();
   stopwatch.lap("sample");
 
   ChosenBasis basis = choose(sampled, options);
   stopwatch.lap("choose");
 
-  BaseLevel weights = project(grid, shader, options, sampled, basis, monitor, ours);
+  BaseLevel weights = project(job, passes, sampled, basis, ours);
   ours.outlier_basis = basis.outliers;
   stopwatch.lap("project");
 
   ReductionMap map = describe(surface, shader, options, basis);
   fit_lobes(shader, map);
-  map.weights = WeightPyramid(weights);
+  map.weights = passes.build_pyramid(weights);
   map.clusters = build_clusters(surface, map.weights);
   stopwatch.lap("build");
 

@@ -61,4 +61,9 @@ class BakeInterrupted : public Error {
 ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options = {},
                   BakeReport* report = nullptr);
 
+/// The same where `passes` says (passes.h).
+class TexelPasses;
+ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options, TexelPasses& passes,
+                  BakeReport* report = nullptr);
+
 }  // namespace redmap

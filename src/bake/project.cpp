@@ -24,21 +24,6 @@ void append(ChosenBasis& basis, const float* scaled, int rows, const Reflectance
   basis.places.push_back(place);
 }
 
-/// Weights of the distinct reflectances, found by key or by texel id.
-struct KnownWeights {
-  std::vector<BasisWeights> weights;
-  std::vector<float> residuals;
-  std::unordered_map<std::uint64_t, std::uint32_t> of_key;
-  std::unordered_map<std::uint32_t, std::uint32_t> of_id;
-
-  KnownWeights(const UniqueReflectances& unique, const ReflectanceBasis& basis)
-      : weights(unique.size()), residuals(unique.size()) {
-    parallel_for(unique.size(), [&](std::size_t i) { residuals[i] = basis.fit(unique.scaled(i), weights[i]); });
-    for (std::uint32_t i = 0; i < unique.size(); ++i)
-      of_key.emplace(unique.key(i), i), of_id.emplace(texel_id(unique.key(i)), i);
-  }
-};
-
 /// Weights of every covered texel's centre. Returns which texels have a reflectance that was not kept.
 std::vector<std::uint8_t> fill_from_ids(const SampledTexels& sampled, const KnownWeights& known, BaseLevel& base) {
   std::vector<std::uint8_t> unknown(sampled.id.size());
@@ -66,24 +51,18 @@ std::vector<std::uint8_t> fill_from_ids(const SampledTexels& sampled, const Know
 /// Projects points in batches and remembers those that the basis does not represent.
 class PointProjection {
  public:
-  PointProjection(const Shader& shader, const SampledTexels& sampled, const KnownWeights& known,
-                  const ChosenBasis& basis, const BakeOptions& options, BakeMonitor& monitor)
-      : shader_(shader),
+  PointProjection(const BakeJob& job, const SampledTexels& sampled, const KnownWeights& known, const ChosenBasis& basis)
+      : job_(job),
         sampled_(sampled),
         known_(known),
         basis_(basis),
-        options_(options),
-        monitor_(monitor),
-        slots_(pipeline_slots()) {}
+        slots_(pipeline_slots()),
+        projected_(sampled.sampler.rows()) {}
 
   void evaluate(const SurfacePoints& points, std::span<const std::size_t> texel, std::size_t slot, float* out);
   void tile_done(std::size_t slot);
 
-  /// Largest residual of points within the tolerance.
-  float residual() const { return residual_; }
-  float outlier_residual() const { return outlier_residual_; }
-  UniqueReflectances& outliers() { return outliers_; }
-  const std::vector<std::size_t>& outlier_texels() const { return outlier_texels_; }
+  ProjectedPoints take() { return std::move(projected_); }
 
  private:
   struct Fit {
@@ -106,16 +85,12 @@ class PointProjection {
   };
   Fit fit(Slot& slot, std::size_t place, const SurfacePoints& points);
 
-  const Shader& shader_;
+  const BakeJob& job_;
   const SampledTexels& sampled_;
   const KnownWeights& known_;
   const ChosenBasis& basis_;
-  const BakeOptions& options_;
-  BakeMonitor& monitor_;
   std::vector<Slot> slots_;
-  float residual_ = 0, outlier_residual_ = 0;
-  UniqueReflectances outliers_{sampled_.sampler.rows(), kMaxOutliers};
-  std::vector<std::size_t> outlier_texels_;
+  ProjectedPoints projected_;
 };
 
 PointProjection::Fit PointProjection::fit(Slot& slot, std::size_t place, const SurfacePoints& points) {
@@ -127,7 +102,7 @@ PointProjection::Fit PointProjection::fit(Slot& slot, std::size_t place, const S
   scaled_reflectance(slot.sampled, place, sampled_.row_scales, slot.scaled.data());
   Fit fit;
   fit.residual = basis_.reflectances.fit(slot.scaled.data(), fit.weights);
-  if (fit.residual > options_.tolerance && fit.residual > slot.outlier_residual) {
+  if (fit.residual > job_.options.tolerance && fit.residual > slot.outlier_residual) {
     slot.outlier_scaled = slot.scaled;
     slot.outlier_key = key;
     slot.outlier_place = {points.position.get(place),
@@ -142,9 +117,9 @@ PointProjection::Fit PointProjection::fit(Slot& slot, std::size_t place, const S
 void PointProjection::evaluate(const SurfacePoints& points, std::span<const std::size_t> texel, std::size_t index,
                                float* out) {
   Slot& slot = slots_[index];
-  sampled_.sampler.sample(*shader_.bind(points), slot.sampled);
+  sampled_.sampler.sample(*job_.shader.bind(points), slot.sampled);
   const int channels = basis_.reflectances.size();
-  if (const std::string problem = find_problem(shader_, points, slot.sampled); !problem.empty()) {
+  if (const std::string problem = find_problem(job_.shader, points, slot.sampled); !problem.empty()) {
     if (slot.problem.empty()) slot.problem = problem;
     std::fill_n(out, points.size() * channels, 0.0f);
     return;
@@ -155,7 +130,7 @@ void PointProjection::evaluate(const SurfacePoints& points, std::span<const std:
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i == 0 || slot.keys[i] != slot.keys[i - 1]) current = fit(slot, i, points);
     std::copy_n(current.weights.begin(), channels, out + i * channels);
-    if (current.residual <= options_.tolerance) {
+    if (current.residual <= job_.options.tolerance) {
       slot.residual = std::max(slot.residual, current.residual);
     } else {
       slot.outlier_residual = std::max(slot.outlier_residual, current.residual);
@@ -167,11 +142,13 @@ void PointProjection::evaluate(const SurfacePoints& points, std::span<const std:
 
 void PointProjection::tile_done(std::size_t index) {
   Slot& slot = slots_[index];
-  if (!slot.problem.empty()) monitor_.fail(slot.problem);
-  residual_ = std::max(residual_, slot.residual);
-  outlier_residual_ = std::max(outlier_residual_, slot.outlier_residual);
-  if (!slot.outlier_scaled.empty()) outliers_.insert(slot.outlier_key, slot.outlier_scaled.data(), slot.outlier_place);
-  outlier_texels_.insert(outlier_texels_.end(), slot.outlier_texels.begin(), slot.outlier_texels.end());
+  if (!slot.problem.empty()) job_.monitor.fail(slot.problem);
+  projected_.residual = std::max(projected_.residual, slot.residual);
+  projected_.outlier_residual = std::max(projected_.outlier_residual, slot.outlier_residual);
+  if (!slot.outlier_scaled.empty())
+    projected_.outliers.insert(slot.outlier_key, slot.outlier_scaled.data(), slot.outlier_place);
+  projected_.outlier_texels.insert(projected_.outlier_texels.end(), slot.outlier_texels.begin(),
+                                   slot.outlier_texels.end());
   slot.residual = slot.outlier_residual = 0;
   slot.outlier_scaled.clear(), slot.outlier_texels.clear();
 }
@@ -209,28 +186,21 @@ std::vector<std::uint8_t> mask_of(const std::vector<std::size_t>& texels, std::s
 }
 
 /// Averages the `wanted` texels; what the basis does not represent extends it, and only those texels are done again.
-void project_points(const TexelGrid& grid, const Shader& shader, const BakeOptions& options,
-                    const SampledTexels& sampled, std::vector<std::uint8_t> wanted, int sub_samples, ChosenBasis& basis,
-                    BakeMonitor& monitor, BaseLevel& base) {
+void average_and_extend(const BakeJob& job, TexelPasses& passes, const SampledTexels& sampled,
+                        std::vector<std::uint8_t> wanted, int sub_samples, ChosenBasis& basis, BaseLevel& base) {
   for (;;) {
     const KnownWeights known(sampled.unique, basis.reflectances);
-    PointProjection projection(shader, sampled, known, basis, options, monitor);
-    average_texels(
-        grid, wanted, sub_samples,
-        [&](const SurfacePoints& points, std::span<const std::size_t> texel, std::size_t slot, float* out) {
-          projection.evaluate(points, texel, slot, out);
-        },
-        [&](std::size_t slot) { projection.tile_done(slot); }, monitor, base);
-    basis.residual = std::max(basis.residual, projection.residual());
-    if (projection.outlier_texels().empty()) return;
+    ProjectedPoints projected = passes.average(job, sampled, basis, known, wanted, sub_samples, base);
+    basis.residual = std::max(basis.residual, projected.residual);
+    if (projected.outlier_texels.empty()) return;
     const int before = basis.reflectances.size();
-    if (before < options.max_basis) extend_basis(projection.outliers(), options, basis);
+    if (before < job.options.max_basis) extend_basis(projected.outliers, job.options, basis);
     if (basis.reflectances.size() == before) {
-      basis.residual = std::max(basis.residual, projection.outlier_residual());
+      basis.residual = std::max(basis.residual, projected.outlier_residual);
       return;
     }
     widen(base, basis.reflectances.size());
-    wanted = mask_of(projection.outlier_texels(), grid.texels());
+    wanted = mask_of(projected.outlier_texels, job.grid.texels());
   }
 }
 
@@ -248,26 +218,49 @@ ChosenBasis choose(const SampledTexels& sampled, const BakeOptions& options) {
   return basis;
 }
 
-BaseLevel project(const TexelGrid& grid, const Shader& shader, const BakeOptions& options, SampledTexels& sampled,
-                  ChosenBasis& basis, BakeMonitor& monitor, BakeReport& report) {
+KnownWeights::KnownWeights(const UniqueReflectances& unique, const ReflectanceBasis& basis)
+    : weights(unique.size()), residuals(unique.size()) {
+  parallel_for(unique.size(), [&](std::size_t i) { residuals[i] = basis.fit(unique.scaled(i), weights[i]); });
+  for (std::uint32_t i = 0; i < unique.size(); ++i)
+    of_key.emplace(unique.key(i), i), of_id.emplace(texel_id(unique.key(i)), i);
+}
+
+ProjectedPoints::ProjectedPoints(int rows) : outliers(rows, kMaxOutliers) {}
+
+ProjectedPoints average_on_cpu(const BakeJob& job, const SampledTexels& sampled, const ChosenBasis& basis,
+                               const KnownWeights& known, std::span<const std::uint8_t> wanted, int sub_samples,
+                               BaseLevel& base) {
+  PointProjection projection(job, sampled, known, basis);
+  average_texels(
+      job.grid, wanted, sub_samples,
+      [&](const SurfacePoints& points, std::span<const std::size_t> texel, std::size_t slot, float* out) {
+        projection.evaluate(points, texel, slot, out);
+      },
+      [&](std::size_t slot) { projection.tile_done(slot); }, job.monitor, base);
+  return projection.take();
+}
+
+BaseLevel project(const BakeJob& job, TexelPasses& passes, SampledTexels& sampled, ChosenBasis& basis,
+                  BakeReport& report) {
+  const TexelGrid& grid = job.grid;
   BaseLevel base(grid.extent(), basis.reflectances.size(), grid.surface().wraps_u());
   std::vector<std::uint8_t> unknown = fill_from_ids(sampled, KnownWeights(sampled.unique, basis.reflectances), base);
   report.covered_texels = grid.texels() - std::count(sampled.id.begin(), sampled.id.end(), 0u);
   std::vector<std::uint32_t>().swap(sampled.id);
 
   // Reflectances that were not kept are sampled once more; then all texels have weights to compare.
-  monitor.begin("project", 0.55f);
+  job.monitor.begin("project", 0.55f);
   if (std::find(unknown.begin(), unknown.end(), 1) != unknown.end())
-    project_points(grid, shader, options, sampled, std::move(unknown), 1, basis, monitor, base);
+    average_and_extend(job, passes, sampled, std::move(unknown), 1, basis, base);
 
   // Where the shader does not reduce, sub-samples would only make a wrong map smoother.
-  monitor.begin("refine", 0.95f);
-  if (basis.residual > options.tolerance || options.sub_samples == 1) return base;
-  const float difference = kDifference * options.tolerance;
+  job.monitor.begin("refine", 0.95f);
+  if (basis.residual > job.options.tolerance || job.options.sub_samples == 1) return base;
+  const float difference = kDifference * job.options.tolerance;
   std::vector<std::uint8_t> differing = find_differing_texels(
       base, [&](const float* a, const float* b) { return basis.reflectances.distance(a, b) > difference; });
   report.refined_texels = std::count(differing.begin(), differing.end(), 1);
-  project_points(grid, shader, options, sampled, std::move(differing), options.sub_samples, basis, monitor, base);
+  average_and_extend(job, passes, sampled, std::move(differing), job.options.sub_samples, basis, base);
   return base;
 }
 

@@ -127,30 +127,35 @@ std::vector<float> estimate_row_scales(const TexelGrid& grid, const Shader& shad
   return scales;
 }
 
-SampledTexels sample_texels(const TexelGrid& grid, const Shader& shader, const BakeOptions& options,
-                            BakeMonitor& monitor) {
-  monitor.begin("scale", 0.05f);
-  const ReflectanceSampler sampler(shader.info());
-  const std::vector<float> scales = estimate_row_scales(grid, shader, sampler, monitor);
-  SampledTexels result{sampler, scales, ReflectanceKeys(scales), UniqueReflectances(sampler.rows(), kMaxUnique),
-                       std::vector<std::uint32_t>(grid.texels())};
-  monitor.begin("sample", 0.35f);
+void sample_on_cpu(const BakeJob& job, SampledTexels& sampled) {
+  const TexelGrid& grid = job.grid;
+  const int rows = sampled.sampler.rows();
   std::vector<Scratch> slots(pipeline_slots());
   std::vector<std::vector<std::size_t>> chosen(pipeline_slots());
   const auto produce = [&](std::size_t index, std::size_t slot) {
     chosen[slot].clear();
-    if (monitor.stopped()) return;
-    sample_tile(grid, shader, grid.tile(index), result, slots[slot]);
-    chosen[slot] = handed_on(options, slots[slot], sampler.rows());
+    if (job.monitor.stopped()) return;
+    sample_tile(grid, job.shader, grid.tile(index), sampled, slots[slot]);
+    chosen[slot] = handed_on(job.options, slots[slot], rows);
   };
   parallel_pipeline(grid.tiles(), produce, [&](std::size_t index, std::size_t slot) {
     const Scratch& s = slots[slot];
-    if (!s.problem.empty()) monitor.fail(s.problem);
-    for (std::size_t i : chosen[slot]) result.unique.insert(s.keys[i], &s.scaled[i * sampler.rows()], s.places[i]);
-    monitor.advance(static_cast<float>(index + 1) / static_cast<float>(grid.tiles()));
+    if (!s.problem.empty()) job.monitor.fail(s.problem);
+    for (std::size_t i : chosen[slot]) sampled.unique.insert(s.keys[i], &s.scaled[i * rows], s.places[i]);
+    job.monitor.advance(static_cast<float>(index + 1) / static_cast<float>(grid.tiles()));
   });
-  monitor.throw_if_stopped();
-  result.unique.finish();
+  job.monitor.throw_if_stopped();
+  sampled.unique.finish();
+}
+
+SampledTexels sample_texels(const BakeJob& job, TexelPasses& passes) {
+  job.monitor.begin("scale", 0.05f);
+  const ReflectanceSampler sampler(job.shader.info());
+  const std::vector<float> scales = estimate_row_scales(job.grid, job.shader, sampler, job.monitor);
+  SampledTexels result{sampler, scales, ReflectanceKeys(scales), UniqueReflectances(sampler.rows(), kMaxUnique),
+                       std::vector<std::uint32_t>(job.grid.texels())};
+  job.monitor.begin("sample", 0.35f);
+  passes.sample(job, result);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "analysis/sampling.h"
 #include "analysis/unique_reflectances.h"
 #include "bake/bake.h"
+#include "bake/passes.h"
 #include "bake/texel_grid.h"
 
 namespace redmap {
@@ -37,7 +38,9 @@ std::vector<float> estimate_row_scales(const TexelGrid& grid, const Shader& shad
                                        BakeMonitor& monitor);
 
 /// Samples the centre of every texel. Throws BakeInterrupted, and Error on reflectances that are no numbers.
-SampledTexels sample_texels(const TexelGrid& grid, const Shader& shader, const BakeOptions& options,
-                            BakeMonitor& monitor);
+SampledTexels sample_texels(const BakeJob& job, TexelPasses& passes);
+
+/// TexelPasses::sample() on the CPU.
+void sample_on_cpu(const BakeJob& job, SampledTexels& sampled);
 
 }  // namespace redmap
