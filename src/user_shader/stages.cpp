@@ -1,10 +1,7 @@
 #include "user_shader/stages.h"
 
-#include <algorithm>
-#include <cstdio>
-#include <sstream>
-
 #include "base/error.h"
+#include "user_shader/device_shader.h"
 
 namespace redmap {
 namespace {
@@ -61,22 +58,6 @@ void redmap_store_material(uint redmap_i, Material redmap_m) {
   redmap_store(16u, redmap_i, redmap_m.ggx);
   redmap_store(17u, redmap_i, redmap_m.grazing);
   redmap_store3(18u, redmap_i, redmap_m.roughness);
-}
-
-// What a black box is bound to: the place and its shading frame.
-struct RedmapPlace {
-  Surface at;
-  vec3 normal;
-  vec3 tangent;
-};
-vec3 redmap_to_object(RedmapPlace redmap_m, vec3 redmap_v) {
-  return redmap_m.tangent * redmap_v.x + cross(redmap_m.normal, redmap_m.tangent) * redmap_v.y +
-         redmap_m.normal * redmap_v.z;
-}
-// The little of the other normal counts only where the tangent is the shading normal.
-RedmapPlace redmap_framed(Surface redmap_at, vec3 redmap_n) {
-  vec3 redmap_along = redmap_at.tangent - redmap_n * dot(redmap_n, redmap_at.tangent);
-  return RedmapPlace(redmap_at, redmap_n, normalize(redmap_along + redmap_at.normal * 1e-6));
 }
 )";
 
@@ -156,33 +137,6 @@ void main() {
 }
 )";
 
-/// Vulkan wants to know where images are bound.
-std::string with_image_bindings(const std::string& text, const ShaderInfo& info) {
-  std::string result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    const std::size_t at = std::min(line.find("uniform"), line.size());
-    char name[256] = "";
-    if (std::sscanf(line.c_str() + at, "uniform sampler2D %255[A-Za-z0-9_]", name) == 1) {
-      const auto found = std::ranges::find(info.images, name, &ShaderImageInfo::name);
-      if (found != info.images.end())
-        line.insert(at, fmt::format("layout(binding = {}) ", kStageBuffers + (found - info.images.begin())));
-    }
-    result += line + "\n";
-  }
-  return result;
-}
-
-std::string definitions(const ShaderInfo& info) {
-  std::string lines = fmt::format("#define REDMAP_BOUND {}\n", info.black_box ? "RedmapPlace" : "Pattern");
-  if (info.black_box) lines += "#define REDMAP_BLACK_BOX\n";
-  if (info.perturbs_normals) lines += "#define REDMAP_PERTURBS\n";
-  if (info.transmits) lines += "#define REDMAP_TRANSMITS\n";
-  if (info.emits) lines += "#define REDMAP_EMITS\n";
-  if (info.has_material) lines += "#define REDMAP_HAS_MATERIAL\n";
-  return lines;
-}
-
 }  // namespace
 
 std::string_view status_function(std::uint32_t function) {
@@ -194,10 +148,10 @@ std::string_view status_function(std::uint32_t function) {
 ShaderSources stage_text(const ShaderSources& user, const ShaderInfo& info) {
   ShaderSources all{"", user.names};
   all.names.push_back(user.names.front() + ", as redmap calls it");
-  all.text =
-      "#version 450\n" + fmt::format("#line 1 {}\n", all.names.size() - 1) + *library_include("include/prelude.glsl") +
-      definitions(info) + fmt::format("const uint redmap_most_rounds = {}u;\n", kMostRounds) + std::string(kBefore) +
-      with_image_bindings(user.text, info) + fmt::format("#line 1 {}\n", all.names.size() - 1) + std::string(kAfter);
+  all.text = "#version 450\n" + fmt::format("#line 1 {}\n", all.names.size() - 1) + shader_text_head(info) +
+             fmt::format("const uint redmap_most_rounds = {}u;\n", kMostRounds) + std::string(kBefore) +
+             shader_text_body(user, info, kStageBuffers) + fmt::format("#line 1 {}\n", all.names.size() - 1) +
+             std::string(kAfter);
   return all;
 }
 
