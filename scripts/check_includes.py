@@ -23,6 +23,7 @@ DIRECT = {
     "bake": ["surface", "analysis", "map"],
     "scene": ["surface", "user_shader", "map"],
     "render": ["scene"],
+    "verify": ["render", "bake", "metrics"],
     "gpu": ["device", "scene", "bake"],
 }
 SOURCES = {".h", ".cpp", ".in"}

@@ -49,3 +49,7 @@
 // How far pictures are from a reference.
 #include "metrics/compare.h"
 #include "metrics/flip.h"
+
+// Maps that know their own error.
+#include "verify/error_picture.h"
+#include "verify/verify.h"

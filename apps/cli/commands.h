@@ -9,6 +9,7 @@ namespace redmap::cli {
 void add_bake_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_verify_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_bench_strip(CLI::App& bench_app);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/image.h"
+#include "certificate_text.h"
 #include "commands.h"
 #include "common.h"
 #include "map/map_file.h"
@@ -138,6 +139,7 @@ void inspect(const Options& options) {
   fmt::print("residual   {:.4f} of {:g}\n", map.residual, map.tolerance);
   fmt::print("verdict    {}{}{}\n", verdict_name(map.verdict), map.verdict_reason.empty() ? "" : ": ",
              map.verdict_reason);
+  if (map.certificate) fmt::print("certificate\n{}", certificate_text(*map.certificate));
   if (!options.pictures.empty()) write_pictures(map, *shader_of(map, options.map, options.device), options.pictures);
   write_json(options.common.json, map_json(map));
 }

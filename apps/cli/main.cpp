@@ -30,6 +30,7 @@ void add_commands(CLI::App& app) {
   add_bake_command(app);
   add_render_command(app);
   add_compare_command(app);
+  add_verify_command(app);
   add_inspect_command(app);
   add_bench_command(app);
   add_list_command(app);

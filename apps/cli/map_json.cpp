@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "certificate_text.h"
 #include "machine.h"
 #include "map/map_file.h"
 
@@ -14,17 +15,19 @@ nlohmann::json map_json(const ReductionMap& map) {
                       {"normal", {p.normal.x, p.normal.y, p.normal.z}},
                       {"uv", {p.uv.x, p.uv.y}}});
   const Extent extent = map.weights.extent(0);
-  return {{"shader", map.shader},
-          {"parameters", map.parameters},
-          {"basis", map.basis.size()},
-          {"basis_places", places},
-          {"size", {extent.width, extent.height}},
-          {"levels", map.weights.levels()},
-          {"bytes_in_memory", texel_bytes(map)},
-          {"residual", map.residual},
-          {"tolerance", map.tolerance},
-          {"verdict", verdict_name(map.verdict)},
-          {"verdict_reason", map.verdict_reason}};
+  nlohmann::json json{{"shader", map.shader},
+                      {"parameters", map.parameters},
+                      {"basis", map.basis.size()},
+                      {"basis_places", places},
+                      {"size", {extent.width, extent.height}},
+                      {"levels", map.weights.levels()},
+                      {"bytes_in_memory", texel_bytes(map)},
+                      {"residual", map.residual},
+                      {"tolerance", map.tolerance},
+                      {"verdict", verdict_name(map.verdict)},
+                      {"verdict_reason", map.verdict_reason}};
+  if (map.certificate) json["certificate"] = certificate_json(*map.certificate);
+  return json;
 }
 
 nlohmann::json bake_json(const ReductionMap& map, const BakeReport& report) {

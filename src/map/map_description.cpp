@@ -6,75 +6,24 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "map/certificate_json.h"
+#include "map/json_reader.h"
 #include "map/map_file.h"
 
 namespace redmap {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr MapVerdict kVerdicts[] = {MapVerdict::kReduces, MapVerdict::kOneMaterial, MapVerdict::kDoesNotReduce};
-
-/// Reads members of a JSON object; errors name the file, the key, what was expected and what was found.
-class Reader {
- public:
-  Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
-    if (!object_.is_object()) throw Error("{}: expected a JSON object, found {}", where_, object_.type_name());
-  }
-  const Json& get(const char* key, const char* expected) const {
-    const auto found = object_.find(key);
-    if (found == object_.end()) throw Error("{}: {}: expected {}, found nothing", where_, key, expected);
-    return *found;
-  }
-  [[noreturn]] void refuse(const char* key, const std::string& expected) const {
-    throw Error("{}: {}: expected {}, found {}", where_, key, expected, get(key, "").dump().substr(0, 60));
-  }
-  std::string text(const char* key) const {
-    const Json& value = get(key, "a text");
-    if (!value.is_string()) refuse(key, "a text");
-    return value.get<std::string>();
-  }
-  double number(const char* key, double lowest, double highest) const {
-    const Json& value = get(key, "a number");
-    const double number = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    if (!(number >= lowest && number <= highest)) refuse(key, fmt::format("a number from {} to {}", lowest, highest));
-    return number;
-  }
-  std::vector<float> numbers(const char* key, std::size_t fewest, std::size_t most) const {
-    const Json& value = get(key, "a list of numbers");
-    const std::string expected = fmt::format("{} to {} finite numbers", fewest, most);
-    if (!value.is_array() || value.size() < fewest || value.size() > most) refuse(key, expected);
-    std::vector<float> numbers;
-    for (const Json& n : value) {
-      if (!n.is_number() || !std::isfinite(n.get<float>())) refuse(key, expected);
-      numbers.push_back(n.get<float>());
-    }
-    return numbers;
-  }
-  Vec3 vector(const char* key) const {
-    const std::vector<float> v = numbers(key, 3, 3);
-    return {v[0], v[1], v[2]};
-  }
-  Vec3 unit_vector(const char* key) const {
-    const Vec3 v = vector(key);
-    if (!(std::abs(length(v) - 1) < 1e-3f)) refuse(key, "a unit vector");
-    return v;
-  }
-
- private:
-  const Json& object_;
-  std::string where_;
-};
 
 Json list(Vec3 v) { return {v.x, v.y, v.z}; }
 
-std::vector<BasisPlace> parse_basis(const Reader& reader, const std::string& where) {
+std::vector<BasisPlace> parse_basis(const JsonReader& reader, const std::string& where) {
   const Json& list = reader.get("basis", "a list of places");
   if (!list.is_array() || list.empty() || list.size() > kMaxBasis)
     reader.refuse("basis", fmt::format("a list of 1 to {} places", kMaxBasis));
   std::vector<BasisPlace> basis;
   for (const Json& entry : list) {
-    const Reader place(entry, fmt::format("{}: basis {}", where, basis.size()));
+    const JsonReader place(entry, fmt::format("{}: basis {}", where, basis.size()));
     const std::vector<float> uv = place.numbers("uv", 2, 2);
     basis.push_back(
         {place.vector("position"), place.unit_vector("normal"), place.unit_vector("tangent"), {uv[0], uv[1]}});
@@ -91,13 +40,13 @@ Json lobe_list(const LobeModel& model) {
   return numbers;
 }
 
-std::vector<LobeModel> parse_lobes(const Reader& reader, std::size_t basis, const std::string& where) {
+std::vector<LobeModel> parse_lobes(const JsonReader& reader, std::size_t basis, const std::string& where) {
   const Json& list = reader.get("lobes", "a list of lobe models");
   if (!list.is_array() || list.size() != basis) reader.refuse("lobes", fmt::format("{} lobe models", basis));
   std::vector<LobeModel> lobes(basis);
   for (std::size_t b = 0; b < basis; ++b) {
     const Json wrapped{{"model", list[b]}};
-    const Reader model(wrapped, fmt::format("{}: lobes {}", where, b));
+    const JsonReader model(wrapped, fmt::format("{}: lobes {}", where, b));
     const std::vector<float> numbers = model.numbers("model", kLobeFloats, kLobeFloats);
     for (float number : numbers)
       if (number < 0) model.refuse("model", "numbers from 0 up");
@@ -111,14 +60,14 @@ std::vector<LobeModel> parse_lobes(const Reader& reader, std::size_t basis, cons
 
 std::string hexadecimal(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-std::uint64_t parse_hash(const Reader& reader, const char* key) {
+std::uint64_t parse_hash(const JsonReader& reader, const char* key) {
   const std::string text = reader.text(key);
   if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
     reader.refuse(key, "16 hexadecimal digits");
   return std::stoull(text, nullptr, 16);
 }
 
-MapVerdict parse_verdict(const Reader& reader) {
+MapVerdict parse_verdict(const JsonReader& reader) {
   const std::string name = reader.text("verdict");
   for (MapVerdict verdict : kVerdicts)
     if (name == verdict_name(verdict)) return verdict;
@@ -134,12 +83,12 @@ Json describe_origin(const ShaderOrigin& origin) {
 ShaderOrigin parse_origin(const Json& root, const std::string& where) {
   ShaderOrigin origin;
   if (!root.contains("shader_origin")) return origin;
-  const Reader reader(root["shader_origin"], where + ": shader_origin");
+  const JsonReader reader(root["shader_origin"], where + ": shader_origin");
   origin.file = reader.text("file");
   const Json& images = reader.get("images", "an object");
-  const Reader image_reader(images, where + ": shader_origin: images");
+  const JsonReader image_reader(images, where + ": shader_origin: images");
   for (const auto& [name, image] : images.items()) {
-    const Reader entry(image, fmt::format("{}: shader_origin: images: {}", where, name));
+    const JsonReader entry(image, fmt::format("{}: shader_origin: images: {}", where, name));
     const Json& is_data = entry.get("is_data", "true or false");
     if (!is_data.is_boolean()) entry.refuse("is_data", "true or false");
     origin.images[name] = {entry.text("file"), is_data.get<bool>()};
@@ -187,13 +136,14 @@ std::string describe_map(const ReductionMap& map) {
                    {"basis", basis},
                    {"lobes", lobes}};
   if (!map.shader_origin.file.empty()) description["shader_origin"] = describe_origin(map.shader_origin);
+  if (map.certificate) description["certificate"] = describe(*map.certificate);
   return description.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 MapDescription parse_map_description(std::string_view json, const std::string& where) {
   const Json root = Json::parse(json, nullptr, false);
   if (root.is_discarded()) throw Error("{}: expected JSON in the attribute \"redmap\", found something else", where);
-  const Reader reader(root, where);
+  const JsonReader reader(root, where);
   const double version = reader.number("format_version", 0, 1e9);
   if (version != kMapFormatVersion)
     throw Error("{}: format_version: expected {}, found {}", where, kMapFormatVersion, version);
@@ -205,7 +155,7 @@ MapDescription parse_map_description(std::string_view json, const std::string& w
   map.shader_origin = parse_origin(root, where);
   map.shader_hash = parse_hash(reader, "shader_hash");
   const Json& parameters = reader.get("parameters", "an object");
-  const Reader values(parameters, where + ": parameters");
+  const JsonReader values(parameters, where + ": parameters");
   for (const auto& [name, value] : parameters.items()) map.parameters[name] = values.numbers(name.c_str(), 1, 3);
   map.surface_fingerprint = parse_hash(reader, "surface");
   map.size = static_cast<int>(reader.number("size", 1, 16384));
@@ -221,6 +171,7 @@ MapDescription parse_map_description(std::string_view json, const std::string& w
   const Json& wraps = reader.get("wraps_u", "true or false");
   if (!wraps.is_boolean()) reader.refuse("wraps_u", "true or false");
   description.wraps_u = wraps.get<bool>();
+  if (root.contains("certificate")) map.certificate = parse_certificate(root["certificate"], where + ": certificate");
   return description;
 }
 

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/surface_points.h"
 #include "base/vec.h"
 #include "lobes/lobe_model.h"
+#include "map/certificate.h"
 #include "map/footprint.h"
 #include "map/normal_pyramid.h"
 #include "map/pyramid.h"
@@ -59,6 +61,7 @@ struct ReductionMap {
   WeightPyramid weights;
   NormalPyramid normals;     ///< of shading normals; empty where they are the interpolated ones
   SurfaceClusters clusters;  ///< for footprints that no atlas can serve; empty where the map is one chart
+  std::optional<Certificate> certificate;  ///< where it was verified
 };
 
 /// Bytes that its texels take in memory.

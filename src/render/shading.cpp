@@ -62,7 +62,7 @@ void scatter(const ShadedBatch& from, std::span<const std::uint32_t> indices, Sh
 namespace {
 
 /// Shaders see the surface at rest; `turned` (or nothing): hits whose normal looks the other way.
-SurfacePoints surface_points(std::span<const SurfaceHit> hits, std::span<const std::uint8_t> turned, float time) {
+SurfacePoints points_at_rest(std::span<const SurfaceHit> hits, std::span<const std::uint8_t> turned, float time) {
   SurfacePoints points;
   points.resize(hits.size());
   points.time = time;
@@ -83,27 +83,32 @@ Vec3 carried_by_pose(const SurfaceHit& hit, bool turned, Vec3 direction) {
   return posed.to_world(rest.to_local(direction));
 }
 
-/// Shading frames of shaders that perturb normals: the hits' frames with another z.
-std::vector<Frame> perturbed_frames(const ShadingBatch& batch, const Planes<3>& normals) {
+}  // namespace
+
+SurfacePoints surface_points(const ShadingBatch& batch) { return points_at_rest(batch.hits, batch.turned, batch.time); }
+
+std::vector<Frame> shading_frames(const ShadingBatch& batch, const BoundPatterns& patterns) {
+  Planes<3> normals;
+  if (!patterns.shading_normals(normals)) return batch.frames;
   std::vector<Frame> frames(batch.size());
   for (std::size_t i = 0; i < frames.size(); ++i)
     frames[i] = make_frame(carried_by_pose(batch.hits[i], batch.turned[i] != 0, normals.get(i)), batch.frames[i].x);
   return frames;
 }
 
+namespace {
+
 class ShaderShading : public ObjectShading {
  public:
   explicit ShaderShading(std::shared_ptr<const Shader> shader) : shader_(std::move(shader)) {}
 
   void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
-    const auto patterns = shader_->bind(surface_points(batch.hits, batch.turned, batch.time));
+    const auto patterns = shader_->bind(surface_points(batch));
     if (shader_->info().emits)
       patterns->emission(out.radiance);
     else
       out.radiance = Planes<3>(batch.size());
-    std::vector<Frame> perturbed;
-    std::span<const Frame> frames = batch.frames;
-    if (Planes<3> normals; patterns->shading_normals(normals)) frames = perturbed = perturbed_frames(batch, normals);
+    const std::vector<Frame> frames = shading_frames(batch, *patterns);
     Planes<3> radiance;
     for (std::size_t light = 0; light < batch.lights.size(); ++light) {
       patterns->radiance_each(pairs_in_frames(batch, light, frames), radiance);
@@ -122,7 +127,7 @@ class ShaderShading : public ObjectShading {
   void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint>, float time,
                      Planes<3>& out) const override {
     if (shader_->info().transmits)
-      shader_->bind(surface_points(hits, {}, time))->transmittance(out);
+      shader_->bind(points_at_rest(hits, {}, time))->transmittance(out);
     else
       out = Planes<3>(hits.size());
   }

@@ -88,6 +88,13 @@ ShadingBatch select(const ShadingBatch& batch, std::span<const std::uint32_t> in
 /// Radiance and transmittance of those, back to where they came from.
 void scatter(const ShadedBatch& from, std::span<const std::uint32_t> indices, ShadedBatch& to);
 
+/// The hits of `batch` as shaders see them: at rest.
+SurfacePoints surface_points(const ShadingBatch& batch);
+
+/// The frames that `patterns`, bound to surface_points(batch), are shaded in: about the shader's own normals where it
+/// says them, else those of the batch.
+std::vector<Frame> shading_frames(const ShadingBatch& batch, const BoundPatterns& patterns);
+
 /// Directions of the hits `batch` towards light `light`, and to the viewer, in `frames`.
 DirectionPairs pairs_in_frames(const ShadingBatch& batch, std::size_t light, std::span<const Frame> frames);
 

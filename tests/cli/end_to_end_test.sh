@@ -88,6 +88,28 @@ holds normals.json '{"map_over_64spp_rmse", "map_over_paper_rmse", "map_over_par
 holds normals.json '[s["minification"] for s in j["summary"]["by_minification"]] == [4]'
 runs compare cases/plane_fbm.25_phong20_4.png cases/plane_fbm.25_phong20_4.png
 
+# Verifying: the same for any number of threads, a verdict, and a certificate that the map keeps.
+for threads in 1 2 7; do
+  runs verify scene.toml --pixels 20 --spp 64 --minifications 1,4 --threads $threads --json verify$threads.json -o error.png
+  says "most of it from"
+done
+holds verify1.json 'all(o["by_minification"][i]["bound"] > 0 and o["by_level"] and len(o["stages"]) == 4
+  for o in j["objects"] for i in (0, 1))'
+for threads in 2 7; do
+  python3 -c 'import json, sys; a, b = (json.load(open(f))["objects"] for f in sys.argv[1:]); sys.exit(a != b)' \
+    verify1.json verify$threads.json || fail "expected the same report for 1 and $threads threads"
+done
+runs compare error.png error.png
+runs verify scene.toml --pixels 20 --spp 64 --minifications 1,4 --max-error 10 --max-flip 1 --store
+says "verdict: passes"
+runs inspect maps/ball.exr --json inspect.json
+says "certificate"
+holds inspect.json 'len(j["certificate"]["rows"]) == 2'
+for limit in "--max-error 1e-7" "--max-flip 1e-7"; do
+  "$redmap" verify scene.toml --pixels 20 --spp 64 --minifications 4 $limit >stdout 2>stderr && fail "expected $limit to fail"
+  grep -q "ball" stderr || fail "expected the object's name, found: $(cat stderr)"
+done
+
 # Maps that do not belong to the scene, or are none.
 mkdir kept && cp maps/ball.exr kept/
 refuses "marble" render scene.toml -o other.exr -D ball.shader=marble
