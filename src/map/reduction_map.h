@@ -59,8 +59,8 @@ struct ReductionMap {
   std::vector<BasisPlace> basis;
   std::vector<LobeModel> lobes;  ///< of each basis reflectance: for integrals over normals (docs/normals.md)
   WeightPyramid weights;
-  NormalPyramid normals;     ///< of shading normals; empty where they are the interpolated ones
-  SurfaceClusters clusters;  ///< for footprints that no atlas can serve; empty where the map is one chart
+  NormalPyramid normals;                   ///< of shading normals; empty where they are the interpolated ones
+  SurfaceClusters clusters;                ///< for footprints that no atlas can serve; empty where the map is one chart
   std::optional<Certificate> certificate;  ///< where it was verified
 };
 
