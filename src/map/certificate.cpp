@@ -1,6 +1,7 @@
 #include "map/certificate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "map/certificate_json.h"
@@ -40,6 +41,14 @@ float largest_bound(const Certificate& certificate) {
   float largest = 0;
   for (const Certificate::Row& row : certificate.rows) largest = std::max(largest, row.bound);
   return largest;
+}
+
+std::optional<float> bound_of(const Certificate& certificate, float minification, float half_degrees) {
+  constexpr float kHalfOctave = 0.51f;  // rows are an octave wide, and roundings
+  for (const Certificate::Row& row : certificate.rows)
+    if (std::abs(std::log2(minification / row.minification)) <= kHalfOctave)
+      return row.bound_of_kind[half_angle_kind(half_degrees)];
+  return std::nullopt;
 }
 
 nlohmann::ordered_json describe(const Certificate& certificate) {

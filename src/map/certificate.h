@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct Certificate {
   std::string weakest;  ///< the stage that most of the error comes from: fit, texels, filter or normals
   std::string reason;   ///< half a sentence for people
 };
+
+/// What a pixel is certified to be off by at most: nothing where its minification is beyond the rows.
+std::optional<float> bound_of(const Certificate& certificate, float minification, float half_degrees);
 
 /// The largest bound of its rows: 0 without any.
 float largest_bound(const Certificate& certificate);

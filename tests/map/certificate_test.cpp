@@ -31,6 +31,15 @@ TEST(Certificate, LargestBoundIsThatOfTheWorstRow) {
   EXPECT_EQ(largest_bound({}), 0);
 }
 
+TEST(Certificate, BoundOfAPixel_IsThatOfItsRowAndHalfAngle_AndNoneBeyondTheRows) {
+  const Certificate certificate = some_certificate();
+  EXPECT_EQ(bound_of(certificate, 2.2f, 5), 0.1f);
+  EXPECT_EQ(bound_of(certificate, 1.6f, 20), 0.05f);
+  EXPECT_EQ(bound_of(certificate, 4, 80), 0.02f);
+  EXPECT_FALSE(bound_of(certificate, 8, 5));
+  EXPECT_FALSE(bound_of(certificate, 1, 5));
+}
+
 TEST(Certificate, DescriptionOfAMapWithout_IsAsItWas) {
   EXPECT_EQ(describe_map(ReductionMap{}).find("certificate"), std::string::npos);
 }
