@@ -39,8 +39,8 @@ for text in "$texts"/*.glsl; do
   for which in library own; do
     "$program" bake $which.toml -o maps_$which --device "$device" --json $which.json >/dev/null
     sed -i "/^map = /d" $which.toml && echo "map = \"maps_$which/ball.exr\"" >>$which.toml
-    "$program" render $which.toml -o $which.exr --device "$device" >/dev/null
-    "$program" render $which.toml -o original_$which.exr --method original --device "$device" >/dev/null
+    "$program" render $which.toml -o $which.exr >/dev/null
+    "$program" render $which.toml -o original_$which.exr --method original >/dev/null
   done
   "$program" compare own.exr library.exr --json map.json >/dev/null
   "$program" compare original_own.exr original_library.exr --json original.json >/dev/null

@@ -40,7 +40,8 @@
 // From surface and shader to a map.
 #include "bake/bake.h"
 
-// From a scene and its maps to pictures.
+// From a scene and its maps to pictures, on the CPU or on a device.
+#include "gpu/device_renderer.h"
 #include "render/closest_view.h"
 #include "render/renderer.h"
 #include "scene/scene.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -17,6 +18,8 @@
 #include "base/srgb.h"
 #include "commands.h"
 #include "common.h"
+#include "device/device.h"
+#include "gpu/device_renderer.h"
 #include "object_data.h"
 #include "render/closest_view.h"
 #include "scene/fingerprint.h"
@@ -36,7 +39,7 @@ struct RenderCommandOptions {
   std::string method = "map", quality = "default", show = "picture", frames;
   int spp = 0;
   std::uint64_t seed = 0;
-  bool force = false;
+  bool force = false, draws_one_basis = false;
   std::vector<std::string> overrides;
 };
 
@@ -143,6 +146,36 @@ void report_maps(const Scene& scene, Method method, const std::vector<ObjectData
       fmt::print("object '{}' is supersampled: {}\n", scene.objects[i].name, data[i].map->verdict_reason);
 }
 
+using RenderFrame = std::function<RenderedFrame(const Scene&, int)>;
+
+/// Frames on the CPU. `progress` is told the part of a frame that is done.
+RenderFrame cpu_frames(const Scene& scene, RenderOptions render, const std::function<void(double)>& progress) {
+  const std::vector<ObjectData> data = load_object_data(scene, render.method);
+  report_maps(scene, render.method, data);
+  render.progress = progress;
+  const auto renderer = std::make_shared<Renderer>(scene, render, data);
+  return [renderer](const Scene& moment, int frame) { return renderer->render(moment, frame); };
+}
+
+DeviceRenderOptions device_options(const RenderCommandOptions& options, const RenderOptions& render) {
+  if (render.decisions) throw Error("--show decisions: expected no --device, found \"{}\"", options.device);
+  const DeviceRenderOptions device{render.method, render.quality, render.spp, options.draws_one_basis};
+  require_device_method(device);
+  return device;
+}
+
+RenderFrame device_frames(const Scene& scene, const DeviceRenderOptions& options, const std::string& device) {
+  std::vector<std::shared_ptr<const ReductionMap>> maps;
+  for (const ObjectData& data : load_object_data(scene, options.method)) maps.push_back(data.map);
+  const auto renderer = std::make_shared<DeviceRenderer>(Device::open(device), scene, options, maps);
+  return [renderer](const Scene& moment, int frame) {
+    RenderedFrame rendered;
+    rendered.seconds = renderer->render(moment, frame);
+    rendered.image = renderer->picture();
+    return rendered;
+  };
+}
+
 void run_render(const RenderCommandOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
   SceneFile file = SceneFile::load(options.scene, options.overrides, options.device);
@@ -151,9 +184,14 @@ void run_render(const RenderCommandOptions& options) {
   if (options.method == "parameters") settle_map_sizes(file, [] { return interrupted(); });
   const std::vector<int> frames = frames_to_render(options, file);
   const RenderOptions render = render_options(options);
-  const std::uint64_t settings = settings_fingerprint(render, file.at(frames.front()));
+  std::uint64_t settings = settings_fingerprint(render, file.at(frames.front()));
+  if (!options.device.empty())
+    settings = hash64(hash_bytes(settings, options.device.data(), options.device.size()), options.draws_one_basis);
 
-  std::unique_ptr<Renderer> renderer;  // made once a frame really has to be rendered
+  std::optional<DeviceRenderOptions> on_device;
+  if (!options.device.empty()) on_device = device_options(options, render);
+
+  RenderFrame render_frame;  // made once a frame really has to be rendered
   std::optional<Progress> progress(std::in_place, "rendering");
   nlohmann::json rows = nlohmann::json::array();
   std::size_t skipped = 0;
@@ -168,16 +206,13 @@ void run_render(const RenderCommandOptions& options) {
       ++skipped;
       continue;
     }
-    if (!renderer) {
-      const std::vector<ObjectData> data = load_object_data(scene, render.method);
-      report_maps(scene, render.method, data);
-      RenderOptions with_progress = render;
-      with_progress.progress = [&progress, &frames, &i](double part) {
+    if (!render_frame) {
+      const auto tell = [&](double part) {
         progress->update((static_cast<double>(i) + part) / static_cast<double>(frames.size()));
       };
-      renderer = std::make_unique<Renderer>(scene, with_progress, data);
+      render_frame = on_device ? device_frames(scene, *on_device, options.device) : cpu_frames(scene, render, tell);
     }
-    const RenderedFrame rendered = renderer->render(scene, frames[i]);
+    const RenderedFrame rendered = render_frame(scene, frames[i]);
     stop_if_interrupted();
     write_image(render.decisions ? painted(rendered, decisions) : rendered.image, path);
     remember_finished(path, fingerprint);
@@ -217,7 +252,11 @@ void add_render_command(CLI::App& app) {
   sub->add_option("--seed", options->seed, "Seed of the jitter")->capture_default_str();
   sub->add_flag("--force", options->force, "Render again what is already finished");
   add_override_option(*sub, options->overrides);
-  add_device_option(*sub, options->device);
+  sub->add_flag("--draw-basis", options->draws_one_basis,
+                "With --device: one basis reflectance a sample for all lights, drawn by its weight");
+  sub->add_option("--device", options->device,
+                  "Render on this Vulkan device: its number, or part of its name (redmap list devices)")
+      ->type_name("DEVICE");
   add_common_options(*sub, options->common);
   sub->footer(
       "Frames whose scene, map and settings have not changed since they were finished are skipped.\n"

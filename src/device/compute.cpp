@@ -61,7 +61,8 @@ DeviceBuffer::DeviceBuffer(const Device& device, std::size_t size) : impl_(new I
   on_device(*impl_->device, [&] {
     const vk::raii::Device& vulkan = impl_->device->device;
     using Memory = vk::MemoryPropertyFlagBits;
-    const auto usage = vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferSrc;
+    using Usage = vk::BufferUsageFlagBits;
+    const auto usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     impl_->buffer = {vulkan, vk::BufferCreateInfo({}, impl_->size, usage)};
     impl_->memory = impl_->device->allocate(impl_->buffer.getMemoryRequirements(),
                                             Memory::eHostVisible | Memory::eHostCoherent, Memory::eHostCached);

@@ -104,6 +104,7 @@ vk::PhysicalDeviceFeatures wanted_features(const vk::raii::PhysicalDevice& devic
   wanted.robustBufferAccess = true;
   wanted.shaderFloat64 = there.shaderFloat64;
   wanted.shaderInt64 = there.shaderInt64;
+  wanted.geometryShader = there.geometryShader;  // fragment shaders are told the triangle's number
   return wanted;
 }
 

@@ -87,15 +87,14 @@ std::vector<std::uint32_t> finished(const std::vector<std::uint32_t>& spirv) {
   return result;
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names,
-                                        const std::string& loop_guard) {
+/// As glslang translates it.
+std::vector<std::uint32_t> translated(const std::string& text, std::span<const std::string> source_names,
+                                      EShLanguage stage) {
   initialise_glslang();
-  glslang::TShader shader(EShLangCompute);
+  glslang::TShader shader(stage);
   const char* strings = text.c_str();
   shader.setStrings(&strings, 1);
-  shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
+  shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
   if (!shader.parse(GetDefaultResources(), 450, false, kMessages))
@@ -106,13 +105,28 @@ std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const
   std::vector<std::uint32_t> spirv;
   glslang::SpvOptions options;
   options.disableOptimizer = true;  // drivers optimise
-  glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv, &options);
+  glslang::GlslangToSpv(*program.getIntermediate(stage), spirv, &options);
+  return spirv;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names,
+                                        const std::string& loop_guard) {
+  const std::vector<std::uint32_t> spirv = translated(text, source_names, EShLangCompute);
   try {
     check_spirv(spirv);
     return finished(loop_guard.empty() ? spirv : guard_loops(spirv, loop_guard));
   } catch (const Error& error) {
     throw Error("{}: {}", source_names.front(), error.what());
   }
+}
+
+std::vector<std::uint32_t> compile_own_glsl(const std::string& text, const std::string& name, GlslStage stage) {
+  const EShLanguage language = stage == GlslStage::kCompute  ? EShLangCompute
+                               : stage == GlslStage::kVertex ? EShLangVertex
+                                                             : EShLangFragment;
+  return translated(text, {&name, 1}, language);
 }
 
 std::size_t array_stride(std::span<const std::uint32_t> spirv, const std::string& name) {

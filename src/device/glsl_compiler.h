@@ -1,4 +1,4 @@
-// GLSL 4.50 to SPIR-V, by glslang, for compute on Vulkan 1.1 devices.
+// GLSL 4.50 to SPIR-V, by glslang, for Vulkan 1.1 devices.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,11 @@ namespace redmap {
 /// too much for a device (spirv_checks.h).
 std::vector<std::uint32_t> compile_glsl(const std::string& text, std::span<const std::string> source_names,
                                         const std::string& loop_guard = "");
+
+enum class GlslStage { kCompute, kVertex, kFragment };
+/// The same for a text of redmap's own, which is compiled as it is: no index is clamped, nothing is checked for being
+/// too much. `name` is what errors call it.
+std::vector<std::uint32_t> compile_own_glsl(const std::string& text, const std::string& name, GlslStage stage);
 
 /// Bytes from one element to the next of the array that is the only member of the buffer block `name`. Throws Error
 /// where there is none.

@@ -180,6 +180,10 @@ float narrowest_width(const LobeModel& model) {
   return narrowest;
 }
 
+float narrowest_highlight(const LobeModel& model) {
+  return model.error <= kTrustedError ? narrowest_width(model) : kNarrowestUnknown;
+}
+
 void add_distribution(const WidthsInUse& in_use, const LobeLanes& lobes, const HalfVectorLanes& half,
                       const NormalLanes& normals, lanes::Float weight, LobeSums& sums) {
   const Vec3Lanes mean = mean_normal(normals);

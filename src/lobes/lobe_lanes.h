@@ -36,6 +36,17 @@ WidthsInUse widths_in_use(const LobeModel& model);
 /// widest there is where there is no highlight.
 float narrowest_width(const LobeModel& model);
 
+/// Models off by more than this on random distributions are not used.
+inline constexpr float kTrustedError = 0.2f;
+/// A reflectance that no model fits is taken for one this narrow.
+inline constexpr float kNarrowestUnknown = 0.1f;
+/// narrowest_width(), or kNarrowestUnknown.
+float narrowest_highlight(const LobeModel& model);
+
+/// Spreads of normals, in parts of the narrowest highlight, over which they come to count: a highlight changes by 1/200
+/// at the first, and little by little, so that nothing pops.
+inline constexpr float kSpreadBegin = 0.07f, kSpreadEnd = 0.12f;
+
 /// A model at some angle. Amplitudes of widths that are not in use may be anything.
 struct LobeLanes {
   std::array<lanes::Float, 3> constant, cosine;

@@ -6,16 +6,6 @@ namespace redmap {
 
 namespace {
 
-/// Models off by more than this on random distributions are not used.
-constexpr float kTrustedError = 0.2f;
-
-/// A reflectance that no model fits is taken for one this narrow.
-constexpr float kNarrowestUnknown = 0.1f;
-
-/// Spreads of normals, in parts of the narrowest highlight, over which they come to count: a highlight changes by 1/200
-/// at the first, and little by little, so that nothing pops.
-constexpr float kSpreadBegin = 0.07f, kSpreadEnd = 0.12f;
-
 /// Basis reflectances that any hit has a part of.
 std::vector<std::size_t> present_in(std::span<const LaneVector<float>> weights) {
   std::vector<std::size_t> present;
@@ -76,7 +66,7 @@ BasisShading::BasisShading(const Shader& shader, const ReductionMap& map)
   for (std::size_t b = 0; b < map.basis.size(); ++b) {
     const LobeModel model = b < map.lobes.size() ? map.lobes[b] : LobeModel{};
     const bool trusted = model.error <= kTrustedError;
-    lobes_.push_back({model, widths_in_use(model), trusted ? narrowest_width(model) : kNarrowestUnknown, trusted});
+    lobes_.push_back({model, widths_in_use(model), narrowest_highlight(model), trusted});
   }
 }
 

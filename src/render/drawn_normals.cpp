@@ -3,39 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "lobes/gaussian_points.h"
 #include "render/basis_shading.h"
 
 namespace redmap {
 
 namespace {
-
-/// Normals a hit: twice what the paper's supersampling takes in rays, since they cost no ray.
-constexpr int kDrawn = 32;
-
-/// Points of a Gaussian of variance 1 in the plane: a spiral of equal parts, scaled to exactly that variance.
-const std::array<Vec2, kDrawn>& gaussian_points() {
-  static const std::array<Vec2, kDrawn> points = [] {
-    std::array<Vec2, kDrawn> p;
-    constexpr float kGoldenAngle = 2.39996323f;
-    Vec2 mean;
-    for (int i = 0; i < kDrawn; ++i) {
-      const float radius = std::sqrt(-2 * std::log(1 - (static_cast<float>(i) + 0.5f) / kDrawn));
-      const float angle = kGoldenAngle * static_cast<float>(i);
-      p[i] = {radius * std::cos(angle), radius * std::sin(angle)};
-      mean = mean + p[i] * (1.0f / kDrawn);
-    }
-    float xx = 0, xy = 0, yy = 0;
-    for (Vec2& q : p) {
-      q = q - mean;
-      xx += q.x * q.x / kDrawn, xy += q.x * q.y / kDrawn, yy += q.y * q.y / kDrawn;
-    }
-    // Inverse of the Cholesky factor of the covariance.
-    const float l11 = std::sqrt(xx), l21 = xy / l11, l22 = std::sqrt(yy - l21 * l21);
-    for (Vec2& q : p) q = {q.x / l11, (q.y - l21 * q.x / l11) / l22};
-    return p;
-  }();
-  return points;
-}
 
 /// A point of distribution `k`, at `unit` of a Gaussian of variance 1.
 Vec3 normal_at(const NormalMixtures& m, std::size_t k, Vec2 unit) {
@@ -49,16 +22,16 @@ Vec3 normal_at(const NormalMixtures& m, std::size_t k, Vec2 unit) {
 
 /// Which of the distributions [first, end) every drawn normal comes from: as many of each as its weight asks for,
 /// spread over the points.
-std::array<std::uint32_t, kDrawn> owners_of(const LaneVector<float>& weights, std::uint32_t first, std::uint32_t end,
-                                            float total) {
-  std::array<std::uint32_t, kDrawn> owners;
-  constexpr int kStride = 13;  // coprime to kDrawn: neighbours on the spiral belong to different distributions
+std::array<std::uint32_t, kDrawnNormals> owners_of(const LaneVector<float>& weights, std::uint32_t first,
+                                                   std::uint32_t end, float total) {
+  std::array<std::uint32_t, kDrawnNormals> owners;
+  constexpr int kStride = 13;  // coprime to kDrawnNormals: neighbours on the spiral belong to different distributions
   std::uint32_t k = first;
   float sum = weights[first];
-  for (int i = 0; i < kDrawn; ++i) {
-    const float wanted = total * (static_cast<float>(i) + 0.5f) / kDrawn;
+  for (int i = 0; i < kDrawnNormals; ++i) {
+    const float wanted = total * (static_cast<float>(i) + 0.5f) / kDrawnNormals;
     while (sum < wanted && k + 1 < end) sum += weights[++k];
-    owners[i * kStride % kDrawn] = k;
+    owners[i * kStride % kDrawnNormals] = k;
   }
   return owners;
 }
@@ -70,16 +43,16 @@ void BasisShading::draw_normals(std::size_t basis, const DirectionPairs& pairs, 
                                 RenderCounts& counts) const {
   if (hits.empty()) return;
   DirectionPairs drawn;
-  drawn.resize(hits.size() * kDrawn);
+  drawn.resize(hits.size() * kDrawnNormals);
   std::vector<float> total(hits.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const std::uint32_t first = mixtures.first[hits[i]], end = mixtures.first[hits[i] + 1];
     for (std::uint32_t k = first; k < end; ++k) total[i] += mixtures.weights[weights][k];
     const auto owners = owners_of(mixtures.weights[weights], first, end, total[i]);
-    for (int n = 0; n < kDrawn; ++n) {
+    for (int n = 0; n < kDrawnNormals; ++n) {
       const Frame frame = make_frame(normal_at(mixtures, owners[n], gaussian_points()[n]), {1, 0, 0});
-      drawn.to_light.set(i * kDrawn + n, frame.to_local(pairs.to_light.get(hits[i])));
-      drawn.to_viewer.set(i * kDrawn + n, frame.to_local(pairs.to_viewer.get(hits[i])));
+      drawn.to_light.set(i * kDrawnNormals + n, frame.to_local(pairs.to_light.get(hits[i])));
+      drawn.to_viewer.set(i * kDrawnNormals + n, frame.to_local(pairs.to_viewer.get(hits[i])));
     }
   }
   Planes<3> answers;
@@ -87,8 +60,8 @@ void BasisShading::draw_normals(std::size_t basis, const DirectionPairs& pairs, 
   counts.shader_calls += drawn.size();
   for (std::size_t i = 0; i < hits.size(); ++i) {
     Vec3 sum;
-    for (int n = 0; n < kDrawn; ++n) sum += answers.get(i * kDrawn + n);
-    radiance.set(hits[i], sum * (total[i] / kDrawn));
+    for (int n = 0; n < kDrawnNormals; ++n) sum += answers.get(i * kDrawnNormals + n);
+    radiance.set(hits[i], sum * (total[i] / kDrawnNormals));
   }
 }
 

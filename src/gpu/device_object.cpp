@@ -1,0 +1,207 @@
+#include "gpu/device_object.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/map_memory.h"
+#include "scene/placement.h"
+#include "surface/mesh.h"
+
+namespace redmap {
+namespace {
+
+/// Analytic surfaces are known by what they map: a sphere's map is twice as wide as high.
+SurfaceKind kind_of(const Surface& surface) {
+  if (surface.mesh()) return SurfaceKind::kMesh;
+  const Extent extent = surface.map_extent(1);
+  return extent.width == 2 * extent.height ? SurfaceKind::kSphere : SurfaceKind::kCylinder;
+}
+
+constexpr int kBoxTriangles = 12;
+constexpr std::uint32_t kBoxIndices[3 * kBoxTriangles] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                                          2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+
+std::array<Vec3, 8> box_corners(const Surface& surface, float margin) {
+  const Vec3 extra = (surface.upper() - surface.lower()) * margin;
+  const Vec3 lo = surface.lower() - extra, hi = surface.upper() + extra;
+  std::array<Vec3, 8> corners;
+  for (int i = 0; i < 8; ++i) corners[i] = {i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z};
+  return corners;
+}
+
+template <typename T>
+std::span<const std::byte> bytes_of_all(const T& values) {
+  return std::as_bytes(std::span(values));
+}
+
+/// Two vec4 a vertex: position, normal, uv.
+std::vector<float> face_floats(const TriangleMesh& mesh) {
+  std::vector<float> floats;
+  floats.reserve(24 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = mesh.positions[mesh.triangles[t][k]], n = mesh.normals[mesh.normal_triangles[t][k]];
+      const Vec2 uv = mesh.uv[mesh.uv_triangles[t][k]];
+      floats.insert(floats.end(), {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
+    }
+  return floats;
+}
+
+DeviceShader shader_for(const Object& object) {
+  const ShaderInfo& info = object.shader->info();
+  if (object.surface->pose_fingerprint() != object.surface->fingerprint())
+    throw Error("object '{}': expected a mesh at rest, found a deformed one: render it without --device", object.name);
+  if (info.transmits)
+    throw Error(
+        "object '{}': expected an opaque shader, found '{}', which lets light through: render it without --device",
+        object.name, info.name);
+  std::optional<DeviceShader> shader = device_shader(*object.shader);
+  if (!shader)
+    throw Error("object '{}': expected a shader in GLSL, found the plug-in '{}': render it without --device",
+                object.name, info.name);
+  return std::move(*shader);
+}
+
+/// Length of dp_du where a triangle has no shape in uv (surface/mesh_surface.cpp).
+float average_scale(const Surface& surface) {
+  return static_cast<float>(std::sqrt(surface.area() / std::max(surface.uv_area(), 1e-12)));
+}
+
+}  // namespace
+
+DeviceObject::Geometry DeviceObject::make_geometry() const {
+  const Device& device = *device_;
+  if (const TriangleMesh* mesh = surface_->mesh()) {
+    const std::vector<float> faces = face_floats(*mesh);
+    return {LocalBuffer(device, bytes_of_all(mesh->positions)), LocalBuffer(device, bytes_of_all(mesh->triangles)),
+            LocalBuffer(device, bytes_of_all(faces))};
+  }
+  // A hair larger than the surface, which its faces touch.
+  constexpr float kMargin = 1e-3f;
+  const std::array<Vec3, 8> corners = box_corners(*surface_, kMargin);
+  return {LocalBuffer(device, bytes_of_all(corners)), LocalBuffer(device, bytes_of_all(kBoxIndices)),
+          LocalBuffer(device, std::size_t{4})};
+}
+
+DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, std::shared_ptr<const ReductionMap> map,
+                           bool shadows, std::uint32_t first_number)
+    : device_(cache.device()),
+      surface_(object.surface),
+      map_(std::move(map)),
+      transform_(object.transform),
+      geometry_(make_geometry()),
+      block_(*device_, sizeof(ObjectBlock)),
+      parameters_(*device_, std::size_t{4}),
+      patterns_(*device_, std::size_t{4}),
+      data_(*device_, std::size_t{4}) {
+  const DeviceShader shader = shader_for(object);
+  const ShaderInfo& info = object.shader->info();
+  traits_.surface = kind_of(*surface_);
+  traits_.shadows = shadows;
+  const Vec3 size = surface_->upper() - surface_->lower();
+  values_.shape = {1, 0.5f * size.x, size.y, average_scale(*surface_)};
+  if (map_) {
+    set_map_traits(*map_, traits_), set_map_block(*map_, values_);
+    texels_.push_back(make_weight_texture(*device_, *map_));
+    data_ = LocalBuffer(*device_, bytes_of_all(map_data(*map_, traits_)));
+  } else {
+    texels_.push_back(LayeredTexture(*device_, {1, 1}, 1, 1, false, std::vector<std::byte>(4)));
+  }
+  const TriangleMesh* mesh = surface_->mesh();
+  numbers_ = mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
+  draw_triangles_ = mesh ? numbers_ : kBoxTriangles;
+  values_.numbers.x = first_number, values_.numbers.y = numbers_;
+
+  for (const Image& image : shader.images) images_.emplace_back(*device_, image);
+  const PipelineInputs inputs{kObjectBuffers, kObjectBindings - kObjectBuffers + static_cast<int>(images_.size()),
+                              sizeof(BandCall)};
+  draw_numbers_ = &cache.draw(traits_.surface, TargetKind::kNumbers);
+  draw_depth_ = &cache.draw(traits_.surface, TargetKind::kDepth);
+  sort_ = &cache.compute(sort_text(traits_.surface), inputs);
+  group_ = &cache.compute(group_text(), inputs);
+  const ShaderSources text = shade_text(shader, info, traits_);
+  for (const ShadeStage stage : {ShadeStage::kBind, ShadeStage::kNear, ShadeStage::kFar, ShadeStage::kSpread}) {
+    // The shader itself needs one stage; maps with normals shade all in one.
+    if (stage != ShadeStage::kNear && !map_) continue;
+    if (stage == ShadeStage::kSpread && traits_.has_normals) continue;
+    shade_[static_cast<int>(stage)] = &cache.shade(text, !info.file.empty(), inputs, stage);
+  }
+  parameters_ = LocalBuffer(*device_, std::span<const std::byte>(shader.parameters));
+  if (map_) patterns_ = LocalBuffer(*device_, cache.pattern_size(text) * map_->basis.size());
+}
+
+void DeviceObject::attach(const FrameMemory& memory, CommandList& commands) {
+  lists_ = memory.lists;
+  number_bindings_ = std::make_unique<Bindings>(*draw_numbers_);
+  number_bindings_->add(memory.views->buffer()).add(block_.buffer());
+  depth_bindings_ = std::make_unique<Bindings>(*draw_depth_);
+  depth_bindings_->add(memory.views->buffer()).add(block_.buffer());
+  bindings_ = std::make_unique<Bindings>(*sort_);
+  bindings_->add(memory.frame->buffer()).add(block_.buffer()).add(geometry_.faces).add(*memory.lists);
+  bindings_->add(*memory.radiance).add(parameters_).add(patterns_).add(data_).add(memory.views->buffer());
+  bindings_->add(*memory.seen).add(texels_.front()).add(*memory.shadows);
+  for (const DeviceImage& image : images_) bindings_->add(image);
+  if (const ComputePipeline* bind = shade_[static_cast<int>(ShadeStage::kBind)])
+    commands.dispatch(*bind, *bindings_, bytes_of(BandCall{}), Workgroups{1, 1});
+}
+
+void DeviceObject::place(const Transform& transform) {
+  transform_ = transform;
+  const Placement p = make_placement(transform);
+  values_.axis_x = {p.rotation.x, p.translate.x};
+  values_.axis_y = {p.rotation.y, p.translate.y};
+  values_.axis_z = {p.rotation.z, p.translate.z};
+  values_.shape.x = p.scale;
+  block_.set(values_);
+}
+
+void DeviceObject::record_draw(CommandList& commands, TargetKind kind, std::uint32_t view) const {
+  const bool numbers = kind == TargetKind::kNumbers;
+  commands.draw(numbers ? *draw_numbers_ : *draw_depth_, numbers ? *number_bindings_ : *depth_bindings_, bytes_of(view),
+                geometry_.positions, geometry_.indices, draw_triangles_);
+}
+
+/// Blocks of 8 x 8 samples that the object's box may be seen in; false if there are none in the band.
+bool DeviceObject::cover(BandCall& call, const CameraRays& camera, int samples_a_side, int columns) const {
+  const Placement placement = make_placement(transform_);
+  const Vec3 forward = normalized(cross(camera.right_per_pixel, camera.down_per_pixel));
+  const float across = dot(camera.right_per_pixel, camera.right_per_pixel);
+  float x0 = 1e30f, y0 = 1e30f, x1 = -1e30f, y1 = -1e30f;
+  const float near_end = 1e-3f * length(surface_->upper() - surface_->lower()) * placement.scale;
+  for (const Vec3 corner : box_corners(*surface_, 1e-3f)) {
+    const Vec3 q = placement.point_world(corner) - camera.origin;
+    const float z = dot(q, forward);
+    const Vec3 at = q / std::max(z, near_end) - camera.top_left;
+    const bool behind = z < near_end;
+    const float x = dot(at, camera.right_per_pixel) / across, y = dot(at, camera.down_per_pixel) / across;
+    x0 = behind ? 0 : std::min(x0, x), y0 = behind ? 0 : std::min(y0, y);
+    x1 = behind ? 1e9f : std::max(x1, x), y1 = behind ? 1e9f : std::max(y1, y);
+  }
+  const float n = static_cast<float>(samples_a_side), first = static_cast<float>(call.first_row);
+  const auto block = [](float sample, int samples) {
+    return static_cast<std::uint32_t>(std::clamp(sample, 0.0f, static_cast<float>(samples))) / 8;
+  };
+  const int rows = static_cast<int>(call.rows);
+  const float top = y0 * n - first - 1, bottom = y1 * n - first + 1;
+  if (bottom < 0 || top > static_cast<float>(rows) || x1 < 0 || x0 * n > static_cast<float>(columns)) return false;
+  call.blocks.x = block(x0 * n - 1, columns), call.blocks.y = block(top, rows);
+  call.blocks.z = block(x1 * n + 1, columns - 1) - call.blocks.x + 1;
+  call.blocks.w = call.blocks.z * (block(bottom, rows - 1) - call.blocks.y + 1);
+  return true;
+}
+
+void DeviceObject::record_shading(CommandList& commands, BandCall call, const CameraRays& camera, int samples_a_side,
+                                  int columns) const {
+  if (!cover(call, camera, samples_a_side, columns)) return;
+  if (!map_) call.filters = 0;
+  commands.dispatch(*sort_, *bindings_, bytes_of(call), Workgroups{(call.blocks.w + 63) / 64, 1});
+  commands.dispatch(*group_, *bindings_, bytes_of(call), Workgroups{1, 1});
+  // Those that are blended add to what the shader itself left.
+  for (int list = 0; list < kShadeStages - 1; ++list) {
+    const ComputePipeline* shade = shade_[list + 1];
+    if (shade && (list == 0 || call.filters))
+      commands.dispatch(*shade, *bindings_, bytes_of(call), *lists_, (1 + list) * sizeof(UVec4));
+  }
+}
+
+}  // namespace redmap

@@ -1,0 +1,237 @@
+#include "gpu/device_renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "gpu/device_object.h"
+#include "gpu/shadow_views.h"
+#include "scene/map_shader.h"
+#include "user_shader/stages.h"
+
+namespace redmap {
+namespace {
+
+/// No frame takes that long; a device's own watchdog may end it sooner.
+constexpr std::chrono::minutes kTimeout{2};
+
+/// Samples of a band, at most: its lists and radiance stay under 48 MB, and its workgroups under 65536.
+constexpr int kBandSamples = 1 << 21;
+
+/// Samples a side where a map does not reduce: 16 in all, what the paper falls back to.
+constexpr int kFallbackSide = 4;
+
+/// Texels of a shadow map a side, by how many of them there are: 64 MB in all, or less.
+int shadow_size(int views) { return views <= 4 ? 2048 : views <= 16 ? 1024 : views <= 64 ? 512 : 256; }
+
+int side_of(const DeviceRenderOptions& options) {
+  if (options.method == Method::kSupersample || (options.method == Method::kOriginal && options.spp > 0))
+    return static_cast<int>(std::lround(std::sqrt(static_cast<double>(options.spp > 0 ? options.spp : 16))));
+  return options.quality == Quality::kFast ? 1 : 2;
+}
+
+FrameBlock frame_block(const Scene& scene, int samples, int frame) {
+  const CameraRays rays = make_camera_rays(scene.camera);
+  FrameBlock block;
+  block.eye = {rays.origin, scene.time_seconds};
+  block.top_left = {rays.top_left, 0};
+  block.right = {rays.right_per_pixel, 0}, block.down = {rays.down_per_pixel, 0};
+  block.background = {scene.background.r, scene.background.g, scene.background.b, 1};
+  block.picture = {static_cast<std::uint32_t>(scene.camera.width * samples), static_cast<std::uint32_t>(samples),
+                   static_cast<std::uint32_t>(scene.lights.size()), static_cast<std::uint32_t>(frame)};
+  for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+    const Light& light = scene.lights[l];
+    const bool point = light.type == Light::Type::kPoint;
+    block.lights[l].place = {point ? light.position : light.to_light, point ? 1.0f : 0.0f};
+    block.lights[l].intensity = {light.intensity.r, light.intensity.g, light.intensity.b, -1};
+  }
+  return block;
+}
+
+}  // namespace
+
+void require_device_method(const DeviceRenderOptions& options) {
+  if (options.method == Method::kParameters || options.method == Method::kPaper)
+    throw Error("method {}: expected map, original or supersample on a device: render it without --device",
+                kMethodNames[static_cast<std::size_t>(options.method)]);
+  constexpr int kMostSamples = 1024;
+  const int side = side_of(options);
+  if (options.spp < 0 || options.spp > kMostSamples || (options.spp > 0 && side * side != options.spp))
+    throw Error("{} samples a pixel: expected a square number up to {} on a device", options.spp, kMostSamples);
+}
+
+struct DeviceRenderer::Impl {
+  std::shared_ptr<Device> device;
+  DeviceRenderOptions options;
+  Extent extent;
+  int samples, columns, band_rows, bands, shadow_layers;
+  std::size_t lights;
+  PipelineCache cache;
+  SharedBytes frame, views;
+  LocalBuffer lists, radiance, picture;
+  RenderTarget seen, shadows;
+  mutable DeviceBuffer read_back;
+  mutable CommandList commands;
+  std::vector<std::string> names;
+  std::vector<DeviceObject> objects;
+  const ComputePipeline* resolve = nullptr;
+  std::optional<Bindings> resolve_bindings;
+
+  Impl(std::shared_ptr<Device> opened, const Scene& scene, const DeviceRenderOptions& chosen, int side);
+  void add_objects(const Scene& scene, const std::vector<std::shared_ptr<const ReductionMap>>& maps);
+  void record_shadows(const std::vector<ViewBlock>& shadow);
+  void record_band(const CameraRays& camera, int band);
+  void check_shaders();
+};
+
+DeviceRenderer::Impl::Impl(std::shared_ptr<Device> opened, const Scene& scene, const DeviceRenderOptions& chosen,
+                           int side)
+    : device(std::move(opened)),
+      options(chosen),
+      extent{scene.camera.width, scene.camera.height},
+      samples(side),
+      columns(extent.width * samples),
+      band_rows(std::clamp(kBandSamples / columns / samples, 1, extent.height) * samples),
+      bands((extent.height * samples + band_rows - 1) / band_rows),
+      shadow_layers(shadow_view_count(scene)),
+      lights(scene.lights.size()),
+      cache(device),
+      frame(*device, sizeof(FrameBlock)),
+      views(*device, sizeof(ViewBlock) * (shadow_layers + bands)),
+      lists(*device, 16 * sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) * columns * band_rows),
+      radiance(*device, 3 * sizeof(float) * columns * band_rows),
+      picture(*device, sizeof(Vec4) * extent.width * extent.height),
+      seen(*device, TargetKind::kNumbers, {columns, band_rows}),
+      shadows(*device, TargetKind::kDepth,
+              shadow_layers > 0 ? Extent{shadow_size(shadow_layers), shadow_size(shadow_layers)} : Extent{1, 1},
+              std::max(shadow_layers, 1)),
+      read_back(*device, picture.size()),
+      commands(*device) {}
+
+void DeviceRenderer::Impl::add_objects(const Scene& scene,
+                                       const std::vector<std::shared_ptr<const ReductionMap>>& maps) {
+  std::uint32_t next = 1;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    objects.emplace_back(cache, scene.objects[i], maps[i], shadow_layers > 0, next);
+    names.push_back(scene.objects[i].shader->info().name);
+    next += objects.back().numbers();
+  }
+  const PipelineInputs inputs{kObjectBuffers, 1, sizeof(BandCall)};
+  resolve = &cache.compute(resolve_text(), inputs);
+  resolve_bindings.emplace(*resolve);
+  resolve_bindings->add(frame.buffer()).add(picture).add(lists).add(lists).add(radiance);
+  for (int unused = kParametersBinding; unused < kObjectBuffers; ++unused) resolve_bindings->add(lists);
+  resolve_bindings->add(seen);
+
+  // The shadow maps' first frame clears them; until then nothing may read them.
+  const FrameMemory memory{&frame, &views, &lists, &radiance, &seen, &shadows};
+  frame.set(frame_block(scene, samples, 0));
+  frame.record_upload(commands);
+  commands.fill(lists, 0);
+  for (int layer = 0; layer < std::max(shadow_layers, 1); ++layer)
+    commands.begin_target(shadows, layer), commands.end_target();
+  commands.begin_target(seen), commands.end_target();
+  for (DeviceObject& object : objects) object.attach(memory, commands);
+  commands.run(kTimeout);
+}
+
+void DeviceRenderer::Impl::record_shadows(const std::vector<ViewBlock>& shadow) {
+  for (std::uint32_t layer = 0; layer < shadow.size(); ++layer) {
+    commands.begin_target(shadows, static_cast<int>(layer));
+    for (const DeviceObject& object : objects) object.record_draw(commands, TargetKind::kDepth, layer);
+    commands.end_target();
+  }
+}
+
+void DeviceRenderer::Impl::record_band(const CameraRays& camera, int band) {
+  BandCall call;
+  call.first_row = static_cast<std::uint32_t>(band * band_rows);
+  call.rows = static_cast<std::uint32_t>(std::min(band_rows, extent.height * samples - band * band_rows));
+  call.filters = options.method == Method::kMap, call.draws = options.draws_one_basis;
+  commands.begin_target(seen);
+  for (const DeviceObject& object : objects)
+    object.record_draw(commands, TargetKind::kNumbers, static_cast<std::uint32_t>(shadow_layers + band));
+  commands.end_target();
+  for (const DeviceObject& object : objects) object.record_shading(commands, call, camera, samples, columns);
+  const std::uint32_t pixels = static_cast<std::uint32_t>(extent.width) * (call.rows / samples);
+  commands.dispatch(*resolve, *resolve_bindings, bytes_of(call), Workgroups{(pixels + 63) / 64, 1});
+}
+
+/// Throws Error where a shader has said that it does not end.
+void DeviceRenderer::Impl::check_shaders() {
+  DeviceBuffer counts(*device, sizeof(UVec4));
+  commands.copy(lists, counts, sizeof(UVec4));
+  commands.run(kTimeout);
+  UVec4 values;
+  std::memcpy(&values, counts.data(), sizeof values);
+  if (values.w != 0)
+    throw Error("shader \"{}\": {}(): expected loops that end within {} rounds in all, found more", names.front(),
+                status_function(values.w - 1), kMostRounds);
+}
+
+DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scene, const DeviceRenderOptions& options,
+                               const std::vector<std::shared_ptr<const ReductionMap>>& maps) {
+  require_device_method(options);
+  if (scene.lights.size() > kMostLights)
+    throw Error("{} lights: expected at most {} on a device", scene.lights.size(), kMostLights);
+  std::vector<std::shared_ptr<const ReductionMap>> used(scene.objects.size());
+  int side = side_of(options);
+  for (std::size_t i = 0; i < used.size() && options.method == Method::kMap; ++i) {
+    const Object& object = scene.objects[i];
+    if (i >= maps.size() || !maps[i])
+      throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
+    require_map_of(object, *maps[i]);
+    if (maps[i]->verdict == MapVerdict::kDoesNotReduce)
+      side = kFallbackSide;
+    else
+      used[i] = maps[i];
+  }
+  impl_ = std::make_unique<Impl>(std::move(device), scene, options, side);
+  impl_->add_objects(scene, used);
+}
+
+DeviceRenderer::~DeviceRenderer() = default;
+DeviceRenderer::DeviceRenderer(DeviceRenderer&&) noexcept = default;
+DeviceRenderer& DeviceRenderer::operator=(DeviceRenderer&&) noexcept = default;
+
+double DeviceRenderer::render(const Scene& scene, int frame) {
+  Impl& impl = *impl_;
+  const bool same_size = scene.camera.width == impl.extent.width && scene.camera.height == impl.extent.height;
+  if (scene.objects.size() != impl.objects.size() || scene.lights.size() != impl.lights || !same_size ||
+      shadow_view_count(scene) != impl.shadow_layers)
+    throw Error("device renderer: expected the objects, lights and picture that it was made for, found others");
+  const auto start = std::chrono::steady_clock::now();
+  FrameBlock block = frame_block(scene, impl.samples, frame);
+  const std::vector<ViewBlock> shadow = shadow_views(scene, impl.shadows.extent().width, block);
+  const Ball ball = ball_around(scene);
+  impl.frame.set(block);
+  for (std::size_t i = 0; i < shadow.size(); ++i) impl.views.set(shadow[i], i);
+  for (int band = 0; band < impl.bands; ++band)
+    impl.views.set(camera_view(scene.camera, ball, impl.samples, band * impl.band_rows, impl.band_rows),
+                   shadow.size() + band);
+  impl.frame.record_upload(impl.commands), impl.views.record_upload(impl.commands);
+  for (std::size_t i = 0; i < impl.objects.size(); ++i) {
+    impl.objects[i].place(scene.objects[i].transform);
+    impl.objects[i].record_upload(impl.commands);
+  }
+  impl.record_shadows(shadow);
+  const CameraRays camera = make_camera_rays(scene.camera);
+  for (int band = 0; band < impl.bands; ++band) impl.record_band(camera, band);
+  impl.commands.run(kTimeout);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  impl.check_shaders();
+  return seconds;
+}
+
+Image DeviceRenderer::picture() const {
+  impl_->commands.copy(impl_->picture, impl_->read_back, impl_->read_back.size());
+  impl_->commands.run(kTimeout);
+  Image image(impl_->extent.width, impl_->extent.height, 3);
+  const std::byte* from = impl_->read_back.data();
+  for (std::size_t i = 0; i < image.pixels(); ++i)
+    std::memcpy(&image.data[3 * i], from + i * sizeof(Vec4), 3 * sizeof(float));
+  return image;
+}
+
+}  // namespace redmap

@@ -1,0 +1,52 @@
+// Frames on a Vulkan device: visibility by rasterisation, shading in compute shaders (docs/gpu.md). Samples stand on
+// the grid of the CPU's renderer and have its footprints; the lookup and the integrals over normals are the same.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "device/device.h"
+#include "map/reduction_map.h"
+#include "scene/method.h"
+#include "scene/scene.h"
+
+namespace redmap {
+
+struct DeviceRenderOptions {
+  Method method = Method::kMap;         ///< kOriginal, kSupersample or kMap
+  Quality quality = Quality::kDefault;  ///< one sample a pixel or 2 x 2, for original and map
+  /// A square number of samples a pixel, on a regular grid. supersample: 0 means 16. original: 0 means the map's.
+  int spp = 0;
+  /// Each sample takes one basis reflectance for all lights, drawn by its weight anew every frame: noise instead of
+  /// time that grows with the basis (paper, section 7). Highlights are those of the mean normal.
+  bool draws_one_basis = false;
+};
+
+/// Throws Error, one line, if `options` ask for what only the CPU does.
+void require_device_method(const DeviceRenderOptions& options);
+
+class DeviceRenderer {
+ public:
+  /// `maps` has one entry an object, for method map; null where it is not needed. Throws Error where a map is missing
+  /// or of something else, on what this renderer does not take (plug-ins, glass, deformed meshes, more than 64 lights),
+  /// and where the device fails.
+  DeviceRenderer(std::shared_ptr<Device> device, const Scene& scene, const DeviceRenderOptions& options,
+                 const std::vector<std::shared_ptr<const ReductionMap>>& maps);
+  ~DeviceRenderer();
+  DeviceRenderer(DeviceRenderer&&) noexcept;
+  DeviceRenderer& operator=(DeviceRenderer&&) noexcept;
+
+  /// Renders the same objects, lights and size of picture as they stand in `scene`. The picture stays on the device.
+  /// Returns the seconds it took. Throws Error where a shader of the user's own does not end, naming it.
+  double render(const Scene& scene, int frame);
+  /// What was rendered last: linear RGB.
+  Image picture() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace redmap

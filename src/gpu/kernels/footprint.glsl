@@ -1,0 +1,42 @@
+// Which part of a sample is the map's, and how far normals turn under it (render/filtered_shading.cpp,
+// render/map_shading.cpp).
+struct RedmapAxes {
+  float major, minor;
+  vec2 major_uv;  // along the major axis, over the footprint once
+};
+
+// Singular values of the footprint in texels, as map/lookup_plan.cpp.
+RedmapAxes redmap_axes(vec2 duv_dx, vec2 duv_dy) {
+  vec2 x = duv_dx * redmap_map.xy, y = duv_dy * redmap_map.xy;
+  float uu = x.x * x.x + y.x * y.x, uv = x.x * x.y + y.x * y.y, vv = x.y * x.y + y.y * y.y;
+  float half_difference = 0.5 * (uu - vv);
+  float root = sqrt(half_difference * half_difference + uv * uv);
+  float major = sqrt(0.5 * (uu + vv) + root);
+  vec2 direction = half_difference >= 0.0 ? vec2(half_difference + root, uv) : vec2(uv, root - half_difference);
+  float norm = length(direction);
+  vec2 spanned = norm > 0.0 ? direction * (major / norm) : vec2(major, 0.0);
+  float minor = major > 0.0 ? abs(x.x * y.y - x.y * y.x) / major : 0.0;
+  return RedmapAxes(major, minor, spanned / redmap_map.xy);
+}
+
+// Footprints, in texels along the major axis, over which the shader gives way to the map.
+const float redmap_blend_begin = 0.5;
+const float redmap_blend_end = 1.0;
+float redmap_part(RedmapAxes axes) {
+  return clamp((axes.major - redmap_blend_begin) / (redmap_blend_end - redmap_blend_begin), 0.0, 1.0);
+}
+
+// Footprints around which the surface turns farther than this, as a variance, are no longer one tangent plane.
+const float redmap_largest_turn = 0.1;
+
+// Covariance of the interpolated normal within the footprint, a box, over the shading frame's x and y.
+vec3 redmap_curvature(RedmapHit hit) {
+  vec3 bitangent = cross(hit.normal, hit.tangent);
+  vec3 along_x = hit.dn_du * hit.duv_dx.x + hit.dn_dv * hit.duv_dx.y;
+  vec3 along_y = hit.dn_du * hit.duv_dy.x + hit.dn_dv * hit.duv_dy.y;
+  vec2 x = vec2(dot(along_x, hit.tangent), dot(along_x, bitangent));
+  vec2 y = vec2(dot(along_y, hit.tangent), dot(along_y, bitangent));
+  float variance = (dot(x, x) + dot(y, y)) / 12.0;
+  float scale = min(1.0, redmap_largest_turn / max(variance, 1e-12)) / 12.0;
+  return scale * vec3(x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
+}

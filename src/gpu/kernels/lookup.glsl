@@ -1,0 +1,65 @@
+// The weights under a footprint: the plan of map/lookup_plan.cpp, its taps by the device's own filter. Where the map
+// does not cover all of its texels, weights come multiplied by their coverage, which is the channel after them.
+layout(binding = 10) uniform sampler2DArray redmap_texels;
+
+const float redmap_most_anisotropy = 16.0;
+const float redmap_tap_spacing = 1.5;
+const float redmap_texel_per_minor = 0.57735027;
+const float redmap_most_taps = 19.0;
+const int redmap_layers = (REDMAP_BASIS + REDMAP_HAS_COVERAGE + 3) / 4;
+// Less than half a byte of one texel.
+const float redmap_least_coverage = 0.0019;
+
+struct RedmapTexel {
+  vec4 channels[redmap_layers];
+};
+RedmapTexel redmap_tap(vec2 uv, float level) {
+  RedmapTexel texel;
+  for (int i = 0; i < redmap_layers; i++) texel.channels[i] = textureLod(redmap_texels, vec3(uv, float(i)), level);
+  return texel;
+}
+
+RedmapTexel redmap_taps(vec2 first, vec2 step, float taps, float level) {
+  RedmapTexel sum = redmap_tap(first, level);
+  for (float i = 1.0; i < taps; i += 1.0) {
+    RedmapTexel tap = redmap_tap(first + step * i, level);
+    for (int k = 0; k < redmap_layers; k++) sum.channels[k] += tap.channels[k];
+  }
+  for (int k = 0; k < redmap_layers; k++) sum.channels[k] /= taps;
+  return sum;
+}
+
+float redmap_coverage(RedmapTexel texel) {
+#if REDMAP_HAS_COVERAGE
+  return texel.channels[REDMAP_BASIS / 4][REDMAP_BASIS % 4];
+#else
+  return 1.0;
+#endif
+}
+
+float[REDMAP_BASIS] redmap_look_up(vec2 uv, RedmapAxes axes) {
+  float texel = max(redmap_texel_per_minor * max(axes.minor, axes.major / redmap_most_anisotropy), 1.0);
+  float rest = sqrt(max(axes.major * axes.major - 3.0 * texel * texel, 0.0));
+  bool is_long = rest > 0.5 * texel;
+  float taps =
+      is_long ? clamp(ceil(rest / (redmap_tap_spacing * texel) + 0.5), 2.0, redmap_most_taps) : 1.0;
+  vec2 step = is_long ? axes.major_uv * (rest / (axes.major * sqrt(taps * taps - 1.0))) : vec2(0.0);
+  float level = min(float((floatBitsToInt(texel) >> 23) - 127), max(redmap_map.z - 2.0, 0.0));
+  float ratio = texel * exp2(-level);
+  level += redmap_map.z > 1.0 ? clamp((ratio * ratio - 1.0) / 3.0, 0.0, 1.0) : 0.0;
+
+  vec2 first = uv - step * (0.5 * (taps - 1.0));
+  RedmapTexel sum = redmap_taps(first, step, taps, level);
+#if REDMAP_HAS_COVERAGE
+  // Between charts: whatever is nearest, on coarser levels.
+  while (redmap_coverage(sum) < redmap_least_coverage && level < redmap_map.z) {
+    level += 1.0;
+    sum = redmap_tap(uv, level);
+  }
+#endif
+  float weights[REDMAP_BASIS];
+  float scale = 1.0 / max(redmap_coverage(sum), 1e-6);
+  for (int b = 0; b < REDMAP_BASIS; b++)
+    weights[b] = sum.channels[b / 4][b % 4] * redmap_scales[b / 4][b % 4] * scale;
+  return weights;
+}

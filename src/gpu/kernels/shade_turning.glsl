@@ -1,0 +1,46 @@
+// The surface alone turns: one distribution a sample, around the interpolated normal.
+vec3 redmap_one_spread(uint redmap_b, RedmapNormals redmap_d, float redmap_w, vec3 redmap_l, vec3 redmap_v) {
+  vec3 redmap_mean = redmap_w * redmap_of_basis(redmap_b, redmap_l, redmap_v);
+  uint redmap_m = redmap_model(redmap_b);
+  float redmap_narrow = redmap_number(redmap_m) * redmap_number(redmap_m);
+  float redmap_begin = redmap_spread_begin * redmap_spread_begin * redmap_narrow;
+  float redmap_end = redmap_spread_end * redmap_spread_end * redmap_narrow;
+  float redmap_variance = redmap_d.covariance.x + redmap_d.covariance.z;
+  if (redmap_variance <= redmap_begin || redmap_w <= 0.0) return redmap_mean;
+  bool redmap_trusted = redmap_number(redmap_m + 1u) > 0.5;
+  vec3 redmap_value = vec3(0.0);
+  int redmap_count = redmap_trusted ? 0 : redmap_drawn_normals;
+  for (int redmap_i = 0; redmap_i < redmap_count; redmap_i++)
+    redmap_value += redmap_at_drawn(redmap_b, redmap_d, redmap_i, redmap_l, redmap_v) *
+                    (redmap_w / float(redmap_drawn_normals));
+  if (redmap_trusted) {
+    RedmapHalf redmap_h = redmap_half(redmap_l, redmap_v);
+    RedmapLobes redmap_lobes = redmap_lobes_at(redmap_b, redmap_h.theta_degrees);
+    RedmapSums redmap_s = redmap_no_sums();
+    redmap_add(redmap_b, redmap_lobes, redmap_h, redmap_d, redmap_w, redmap_s);
+    redmap_value = redmap_modelled(redmap_b, redmap_lobes, redmap_h, redmap_s, redmap_l, redmap_v);
+  }
+  return mix(redmap_mean, redmap_value,
+             min(1.0, (redmap_variance - redmap_begin) / (redmap_end - redmap_begin)));
+}
+
+vec3 redmap_spread_out(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS]) {
+  vec3 redmap_sum = redmap_emission(redmap_w);
+  vec3 redmap_v = redmap_in_frame(redmap_hit_.to_viewer, redmap_hit_.normal, redmap_hit_.tangent);
+  RedmapNormals redmap_d = RedmapNormals(vec2(0.0), redmap_curvature(redmap_hit_));
+  for (uint redmap_i = 0u; redmap_i < redmap_picture.z; redmap_i++) {
+    vec3 redmap_l;
+    vec3 redmap_e = redmap_arriving(redmap_i, redmap_hit_, redmap_l);
+    redmap_l = redmap_in_frame(redmap_l, redmap_hit_.normal, redmap_hit_.tangent);
+    for (uint redmap_b = 0u; redmap_b < REDMAP_BASIS; redmap_b++)
+      redmap_sum += redmap_e * redmap_one_spread(redmap_b, redmap_d, redmap_w[redmap_b], redmap_l, redmap_v);
+  }
+  return redmap_sum;
+}
+
+vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sample) {
+  float redmap_w[REDMAP_BASIS] = redmap_look_up(redmap_hit_.uv, redmap_a);
+  if (redmap_draws != 0u) return redmap_drawn(redmap_hit_, redmap_w, redmap_sample);
+  if (redmap_stage == redmap_spread_stage) return redmap_spread_out(redmap_hit_, redmap_w);
+  return redmap_looked_up(redmap_hit_, redmap_w);
+}

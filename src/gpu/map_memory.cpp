@@ -1,0 +1,137 @@
+#include "gpu/map_memory.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "lobes/gaussian_points.h"
+#include "lobes/lobe_lanes.h"
+
+namespace redmap {
+namespace {
+
+bool is_covered(const WeightPyramid& weights) {
+  for (int level = 0; level < weights.levels(); ++level)
+    for (int y = 0; y < weights.extent(level).height; ++y)
+      for (int x = 0; x < weights.extent(level).width; ++x)
+        if (weights.coverage(level, x, y) < 1) return false;
+  return true;
+}
+
+int widths_of(const WidthsInUse& in_use) { return static_cast<int>(std::ranges::count(in_use, true)); }
+
+LobeModel model_of(const ReductionMap& map, std::size_t basis) {
+  return basis < map.lobes.size() ? map.lobes[basis] : LobeModel{};
+}
+
+/// The variance of normals from which on some highlight changes.
+float least_spread(const ReductionMap& map) {
+  float narrowest = 1;
+  for (std::size_t b = 0; b < map.basis.size(); ++b)
+    narrowest = std::min(narrowest, narrowest_highlight(model_of(map, b)));
+  return kSpreadBegin * kSpreadBegin * narrowest * narrowest;
+}
+
+using Words = std::vector<std::uint32_t>;
+
+void append(float value, Words& words) { words.push_back(std::bit_cast<std::uint32_t>(value)); }
+void append(Vec3 v, Words& words) { append(v.x, words), append(v.y, words), append(v.z, words); }
+void append(const LobeModel::Colour& c, Words& words) {
+  for (const float value : c) append(value, words);
+}
+
+/// Widths that are not used are 1 wide and have no amplitude.
+void append_model(const LobeModel& model, int widths, Words& words) {
+  const WidthsInUse in_use = widths_in_use(model);
+  std::vector<int> used;
+  for (int k = 0; k < LobeModel::kWidths; ++k)
+    if (in_use[k]) used.push_back(k);
+  append(narrowest_highlight(model), words);
+  append(model.error <= kTrustedError ? 1.0f : 0.0f, words);
+  append(static_cast<float>(used.size()), words), append(0.0f, words);
+  const auto is_used = [&](int k) { return k < static_cast<int>(used.size()); };
+  for (int k = 0; k < widths; ++k) append(is_used(k) ? LobeModel::width(used[k]) : 1.0f, words);
+  for (const LobeModel::Angle& angle : model.angles) {
+    append(angle.constant, words), append(angle.cosine, words), append(angle.stretch, words);
+    for (int k = 0; k < widths; ++k) append(is_used(k) ? angle.amplitude[used[k]] : LobeModel::Colour{}, words);
+  }
+}
+
+/// Where each level starts, in bytes, for sixteen of them; then the bytes, four to a word.
+void append_normals(const NormalPyramid& normals, Words& words) {
+  constexpr int kLevels = 16;
+  std::vector<std::uint8_t> bytes;
+  Words starts(kLevels, 0);
+  for (int level = 0; level < normals.levels(); ++level) {
+    starts[level] = static_cast<std::uint32_t>(bytes.size());
+    for (int y = 0; y < normals.extent(level).height; ++y) {
+      const auto row = normals.row(level, y);
+      bytes.insert(bytes.end(), row.begin(), row.end());
+    }
+  }
+  bytes.resize((bytes.size() + 3) / 4 * 4);
+  words.insert(words.end(), starts.begin(), starts.end());
+  const std::size_t first = words.size();
+  words.resize(first + bytes.size() / 4);
+  std::memcpy(&words[first], bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+void set_map_traits(const ReductionMap& map, ObjectTraits& traits) {
+  traits.basis = static_cast<int>(map.basis.size());
+  traits.has_coverage = !is_covered(map.weights);
+  traits.wraps_u = map.weights.wraps_u();
+  traits.has_normals = !map.normals.empty();
+  for (std::size_t b = 0; b < map.basis.size(); ++b)
+    traits.widths = std::max(traits.widths, widths_of(widths_in_use(model_of(map, b))));
+}
+
+void set_map_block(const ReductionMap& map, ObjectBlock& block) {
+  const Extent extent = map.weights.extent(0);
+  // With normals one kernel does it all.
+  const float least = map.normals.empty() ? least_spread(map) : 1e30f;
+  block.numbers.z = static_cast<std::uint32_t>(map.basis.size());
+  block.map = {static_cast<float>(extent.width), static_cast<float>(extent.height),
+               static_cast<float>(map.weights.levels()), least};
+  float scales[kMaxChannels] = {};
+  std::ranges::copy(map.weights.scales(), scales);
+  for (int i = 0; i < 4; ++i)
+    block.scales[i] = {scales[4 * i], scales[4 * i + 1], scales[4 * i + 2], scales[4 * i + 3]};
+}
+
+LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map) {
+  const WeightPyramid& weights = map.weights;
+  const bool has_coverage = !is_covered(weights);
+  const int channels = weights.channels(), layers = (channels + (has_coverage ? 1 : 0) + 3) / 4;
+  std::vector<std::byte> texels;
+  for (int level = 0; level < weights.levels(); ++level) {
+    const Extent extent = weights.extent(level);
+    for (int layer = 0; layer < layers; ++layer)
+      for (int y = 0; y < extent.height; ++y) {
+        const auto row = weights.row(level, y);
+        for (int x = 0; x < extent.width; ++x) {
+          const std::uint8_t* texel = &row[static_cast<std::size_t>(x) * weights.texel_stride()];  // coverage first
+          for (int c = 4 * layer; c < 4 * layer + 4; ++c) {
+            const int value = c < channels ? (texel[1 + c] * texel[0] + 127) / 255 : c == channels ? texel[0] : 0;
+            texels.push_back(static_cast<std::byte>(value));
+          }
+        }
+      }
+  }
+  return LayeredTexture(device, weights.extent(0), layers, weights.levels(), weights.wraps_u(), texels);
+}
+
+std::vector<std::uint32_t> map_data(const ReductionMap& map, const ObjectTraits& traits) {
+  Words words;
+  for (const BasisPlace& place : map.basis) {
+    append(place.position, words), append(place.normal, words), append(place.tangent, words);
+    append(place.uv.x, words), append(place.uv.y, words), append(0.0f, words);
+  }
+  for (std::size_t b = 0; b < map.basis.size(); ++b) append_model(model_of(map, b), traits.widths, words);
+  for (const Vec2 point : gaussian_points()) append(point.x, words), append(point.y, words);
+  if (traits.has_normals) append_normals(map.normals, words);
+  return words;
+}
+
+}  // namespace redmap

@@ -1,0 +1,24 @@
+// A reduction map as the renderer's shaders read it. Not part of the public interface.
+#pragma once
+
+#include <optional>
+
+#include "gpu/frame_blocks.h"
+#include "gpu/object_text.h"
+#include "map/reduction_map.h"
+
+namespace redmap {
+
+/// What the texts of an object with this map depend on.
+void set_map_traits(const ReductionMap& map, ObjectTraits& traits);
+/// The map's part of an object's block.
+void set_map_block(const ReductionMap& map, ObjectBlock& block);
+
+/// Weights, four to a layer, multiplied by coverage where there is any; coverage follows the last.
+LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map);
+
+/// Places of the basis, lobe models, drawn normals and, where the map has them, bytes of normals, as
+/// kernels/place.glsl, lobes.glsl and normals.glsl lay them out.
+std::vector<std::uint32_t> map_data(const ReductionMap& map, const ObjectTraits& traits);
+
+}  // namespace redmap

@@ -1,0 +1,38 @@
+// The texts of the shaders that draw, sort and shade one object. Not part of the public interface.
+#pragma once
+
+#include <string>
+
+#include "device/commands.h"
+#include "device/glsl_compiler.h"
+#include "user_shader/device_shader.h"
+
+namespace redmap {
+
+enum class SurfaceKind { kMesh, kSphere, kCylinder };
+
+/// What an object's texts depend on.
+struct ObjectTraits {
+  SurfaceKind surface = SurfaceKind::kMesh;
+  bool shadows = false;       ///< whether any light casts some
+  int basis = 0;              ///< 0: no map
+  bool has_coverage = false;  ///< the map's texels have a coverage that is not 1 everywhere
+  bool wraps_u = false;
+  bool has_normals = false;  ///< the map holds normals
+  int widths = 1;            ///< most Gaussians of a lobe model
+};
+
+/// Stages of shading: values of specialization constant 0.
+enum class ShadeStage : std::uint32_t { kBind, kNear, kFar, kSpread };
+inline constexpr int kShadeStages = 4;
+
+std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind);
+std::string sort_text(SurfaceKind surface);
+std::string group_text();
+std::string resolve_text();
+
+/// Of shaders of the user's own every loop asks `kShadeLoopGuard` before each round.
+inline constexpr const char* kShadeLoopGuard = "redmap_goes_on";
+ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, const ObjectTraits& traits);
+
+}  // namespace redmap
