@@ -18,6 +18,7 @@
 #include "render/closest_view.h"
 #include "scene/map_shader.h"
 #include "scene/scene_file.h"
+#include "verify/search.h"
 
 namespace redmap::cli {
 
@@ -28,6 +29,8 @@ struct Options {
   std::vector<std::string> objects, overrides;
   std::string size;           ///< a number or "auto"; empty: as the scene says
   float texels_per_unit = 0;  ///< 0: as the scene says
+  double max_error = 0;       ///< 0: not asked
+  bool has_max_basis = false;
   BakeOptions bake;
   CommonOptions common;
 };
@@ -106,27 +109,68 @@ nlohmann::json settle_sizes(const Options& options, SceneFile& file) {
   return json;
 }
 
-nlohmann::json bake_object(const Options& options, const Object& object) {
+/// A map and what making it took.
+struct BakedMap {
+  ReductionMap map;
+  BakeReport report;
+  nlohmann::json searched = nullptr;
+};
+
+BakedMap bake_as_asked(const BakeOptions& options, const Object& object) {
+  BakedMap baked;
+  baked.map = bake(*object.surface, *object.shader, options, &baked.report);
+  return baked;
+}
+
+/// The smallest map that keeps --max-error.
+BakedMap bake_smallest(const Options& options, BakeOptions bake_options, const Object& object) {
+  // Sizes up to this take seconds to bake; more has to be asked for.
+  constexpr int kLargestSize = 4096;
+  SearchOptions search;
+  search.max_error = options.max_error, search.bake = std::move(bake_options);
+  if (options.size.empty()) search.bake.size = kLargestSize;
+  if (!options.has_max_basis) search.bake.max_basis = kMaxBasis;
+  search.verify.pixels = 400;  // bounds of fewer vary so much that chance would choose the map
+  search.verify.cancelled = interrupted;
+  nlohmann::json steps = nlohmann::json::array();
+  SearchResult result = search_smallest_map(object, search, [&](const SearchStep& step) {
+    stop_if_interrupted();
+    steps.push_back({{"size", step.size},
+                     {"tolerance", step.tolerance},
+                     {"basis", step.basis},
+                     {"bytes_in_memory", step.bytes},
+                     {"bound", step.bound},
+                     {"weakest", step.weakest}});
+    if (options.common.verbose)
+      fmt::print(stderr, "{}: {} texels, {} basis reflectances: error {:.4f}, most of it from {}\n", object.name,
+                 step.size, step.basis, step.bound, step.weakest);
+  });
+  if (!result.remark.empty()) fmt::print("{}: {}\n", object.name, result.remark);
+  return {std::move(result.map), result.report, {{"max_error", options.max_error}, {"steps", steps}}};
+}
+
+BakedMap bake_with_progress(const Options& options, const Object& object) {
   BakeOptions bake_options = options.bake;
   bake_options.selection = options.selection == "paper" ? BasisSelection::kPaper : BasisSelection::kGreedy;
   bake_options.size = object.map_size;
+  Progress progress("bake " + object.name);
+  bake_options.progress = [&](float fraction, std::string_view) {
+    progress.update(fraction);
+    return !interrupted();
+  };
+  return options.max_error > 0 ? bake_smallest(options, bake_options, object) : bake_as_asked(bake_options, object);
+}
+
+nlohmann::json bake_object(const Options& options, const Object& object) {
   const std::filesystem::path path = map_path(options, object);
-  BakeReport report;
-  ReductionMap map;
-  {
-    Progress progress("bake " + object.name);
-    bake_options.progress = [&](float fraction, std::string_view) {
-      progress.update(fraction);
-      return !interrupted();
-    };
-    map = bake(*object.surface, *object.shader, bake_options, &report);
-  }
+  auto [map, report, searched] = bake_with_progress(options, object);
   map.shader_origin = origin_of(object.shader->info(), path.parent_path());
   make_folder(path.parent_path());
   write_map(path, map);
   nlohmann::json json = bake_json(map, report);
   json["object"] = object.name;
   json["map"] = path.string();
+  if (!searched.is_null()) json["search"] = searched;
   write_json(std::filesystem::path(path).replace_extension(".json"), json);
 
   fmt::print(
@@ -160,7 +204,8 @@ void add_bake_command(CLI::App& app) {
   sub->footer(
       "Examples:\n"
       "  redmap bake scene.toml                        every object's map, where the scene says\n"
-      "  redmap bake scene.toml --object bunny --size 2048 -o maps");
+      "  redmap bake scene.toml --object bunny --size 2048 -o maps\n"
+      "  redmap bake scene.toml --max-error 0.05       the smallest maps that keep it, with their certificates");
   auto options = std::make_shared<Options>();
   BakeOptions& bake_options = options->bake;
   sub->add_option("scene", options->scene, "the scene's TOML file")->required();
@@ -175,9 +220,15 @@ void add_bake_command(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   sub->add_option("--tolerance", bake_options.tolerance, "largest residual, in units of a sample's RMS")
       ->capture_default_str();
-  sub->add_option("--max-basis", bake_options.max_basis, "most basis reflectances")->capture_default_str();
+  const CLI::Option* max_basis =
+      sub->add_option("--max-basis", bake_options.max_basis, "most basis reflectances")->capture_default_str();
   sub->add_option("--sub-samples", bake_options.sub_samples, "n x n points a texel where neighbours differ")
       ->capture_default_str();
+  sub->add_option(
+         "--max-error", options->max_error,
+         "the smallest map whose error 95 % of the pixels keep at this (redmap verify); --size and --max-basis "
+         "are then the most that is tried")
+      ->check(CLI::PositiveNumber);
   sub->add_option("--selection", options->selection, "who chooses the basis: greedy, or the paper's blocks")
       ->check(CLI::IsMember({"greedy", "paper"}))
       ->capture_default_str();
@@ -185,7 +236,10 @@ void add_bake_command(CLI::App& app) {
   add_device_option(*sub, options->device);
   sub->add_option("-o,--output", options->folder, "folder for the maps");
   add_common_options(*sub, options->common);
-  sub->callback([options] { bake_scene(*options); });
+  sub->callback([options, max_basis] {
+    options->has_max_basis = max_basis->count() > 0;
+    bake_scene(*options);
+  });
 }
 
 }  // namespace redmap::cli

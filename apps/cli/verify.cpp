@@ -214,10 +214,10 @@ void add_verify_command(CLI::App& app) {
   sub->add_option("--coverage", verify_options.coverage, "part of the pixels that bounds hold for")
       ->check(CLI::Range(0.5, 0.999))
       ->capture_default_str();
-  sub->add_option("--minifications", verify_options.minifications, "texels across a pixel")
+  sub->add_option("--minifications", verify_options.minifications,
+                  "texels across a pixel; default: .5 to a 32nd of the map, in octaves")
       ->delimiter(',')
-      ->check(CLI::Range(0.01, 4096.0))
-      ->capture_default_str();
+      ->check(CLI::Range(0.01, 4096.0));
   sub->add_option("--pixels", verify_options.pixels, "random pixels for each minification")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();

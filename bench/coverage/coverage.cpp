@@ -27,16 +27,17 @@ Vec3 random_direction(Random& random) {
   return {r * std::cos(azimuth), r * std::sin(azimuth), z};
 }
 
-/// A view of the object from a random side and distance, of a random part of it, under a random light.
-Scene make_held_out_scene(const std::shared_ptr<const Surface>& surface, const std::shared_ptr<const Shader>& shader,
+/// A view of the object from a random side and distance, of a random part of it, under a random light. `rows`: what is
+/// certified.
+Scene make_held_out_scene(const Object& object, const std::vector<Certificate::Row>& rows,
                           const CoverageOptions& options, int view, Random& random) {
-  const auto& minifications = options.verify.minifications;
-  const double octaves = std::log2(minifications.back() / minifications.front());
-  const double minification = minifications.front() * std::exp2(octaves * random.next_float());
-  Scene scene = make_bench_scene(surface, shader, options.map_size, minification, view, options.frame_pixels);
+  const double octaves = std::log2(rows.back().minification / rows.front().minification);
+  const double minification = rows.front().minification * std::exp2(octaves * random.next_float());
+  Scene scene =
+      make_bench_scene(object.surface, object.shader, options.map_size, minification, view, options.frame_pixels);
   scene.objects.front().transform.rotate_degrees.x = 360 * random.next_float();
   scene = turned(scene, 0);
-  const float radius = bounding_radius(*surface);
+  const float radius = bounding_radius(*object.surface);
   const Vec3 aside{2 * random.next_float() - 1, 2 * random.next_float() - 1, 0};
   scene.camera.look_at = aside * (0.7f * radius);
   // So far away that its irradiance is pi everywhere on the object, within a few per cent.
@@ -148,11 +149,12 @@ CoverageRow measure_case(const std::string& object, const std::string& shader, c
   auto map = std::make_shared<ReductionMap>(bake(*verified.surface, *verified.shader, bake_options));
   map->certificate = verify(verified, map, options.verify).certificate;
 
+  if (map->certificate->rows.empty()) throw Error("coverage: {} with {}: nothing is certified", object, shader);
   std::vector<HeldOut> scenes(options.scenes);
   parallel_for(scenes.size(), [&](std::size_t view) {
     if (options.cancelled && options.cancelled()) return;
     Random random(hash64(kHeldOut, options.verify.seed, view));
-    const Scene scene = make_held_out_scene(verified.surface, verified.shader, options, static_cast<int>(view), random);
+    const Scene scene = make_held_out_scene(verified, map->certificate->rows, options, static_cast<int>(view), random);
     scenes[view] = hold_out(scene, static_cast<int>(view), map, options, random);
     scene_done();
   });

@@ -69,10 +69,25 @@ double hidden_normals_of(const BoundPatterns& patterns) {
   return static_cast<double>(hidden) / static_cast<double>(patterns.size());
 }
 
-std::string why_fit(const PixelRenderer& renderer, const ReductionMap& map, std::span<const PixelCase> worst) {
-  if (map.residual > map.tolerance)
-    return fmt::format("the basis is too small: {} reflectances leave a residual of {:.3f}, over the tolerance of {:g}",
-                       map.basis.size(), map.residual, map.tolerance);
+/// Error of the fit over the truth, both root mean square.
+double relative_fit_error(std::span<const MeasuredPixel> pixels) {
+  double fit = 0, truth = 0;
+  for (const MeasuredPixel& pixel : pixels) {
+    if (!pixel.by_map) continue;
+    const Rgb error = pixel.stages[static_cast<int>(Stage::kFit)];
+    fit += dot(error, error), truth += dot(pixel.truth, pixel.truth);
+  }
+  return truth > 0 ? std::sqrt(fit / truth) : 0;
+}
+
+std::string why_fit(const PixelRenderer& renderer, const ReductionMap& map, std::span<const MeasuredPixel> pixels,
+                    std::span<const PixelCase> worst) {
+  // What the bake left at its direction samples, at its worst place, and what pixels see on average: if the first is
+  // no smaller it says all.
+  if (map.residual > relative_fit_error(pixels))
+    return fmt::format(
+        "the basis is too small: {} reflectances leave a residual of {:.3f}; a tolerance below it takes more",
+        map.basis.size(), map.residual);
   const auto patterns = renderer.scene().objects.front().shader->bind(places_of(renderer, worst));
   constexpr double kOften = 0.5, kAnisotropic = 0.1;
   if (hidden_normals_of(*patterns) > kOften)
@@ -82,9 +97,6 @@ std::string why_fit(const PixelRenderer& renderer, const ReductionMap& map, std:
         "the reflectance is anisotropic: its radiance changes by {:.0f} % as directions turn about the "
         "normal, which the 35 samples of the bake hardly do",
         100 * change);
-  if (map.residual > 0.5f * map.tolerance)
-    return fmt::format("{} basis reflectances leave a residual of {:.3f}: a tolerance below {:g} takes more",
-                       map.basis.size(), map.residual, map.tolerance);
   return "off-specular: the reflectance differs where none of the 35 direction samples of the bake looks";
 }
 
@@ -148,7 +160,7 @@ Diagnosis diagnose(const PixelRenderer& renderer, const ReductionMap& map, std::
   }
   switch (diagnosis.weakest) {
     case Stage::kFit:
-      diagnosis.reason = why_fit(renderer, map, worst);
+      diagnosis.reason = why_fit(renderer, map, pixels, worst);
       break;
     case Stage::kTexels:
       diagnosis.reason = "texels are wider than the detail of the shader: a larger map_size has more of it";

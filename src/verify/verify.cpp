@@ -12,9 +12,10 @@ namespace redmap {
 
 namespace {
 
-void validate(const VerifyOptions& options) {
+/// `options` with everything settled. Throws Error on what is out of range.
+VerifyOptions settled(VerifyOptions options, const ReductionMap& map) {
   constexpr int kMostSamples = 1 << 20, kMostPixels = 1 << 20;
-  if (options.minifications.empty()) throw Error("verify: minifications: expected at least one, found none");
+  if (options.minifications.empty()) options.minifications = verified_minifications(map);
   for (const float minification : options.minifications)
     if (!(minification >= 0.01f && minification <= 4096))
       throw Error("verify: minifications: expected numbers from .01 to 4096, found {}", minification);
@@ -24,6 +25,7 @@ void validate(const VerifyOptions& options) {
     throw Error("verify: samples: expected 2 to {} a pixel, found {}", kMostSamples, options.spp);
   if (!(options.coverage > 0 && options.coverage < 1))
     throw Error("verify: coverage: expected a number between 0 and 1, found {}", options.coverage);
+  return options;
 }
 
 using Pixels = std::vector<const MeasuredPixel*>;
@@ -133,18 +135,25 @@ Certificate certify(const PixelRenderer& renderer, const ReductionMap& map, cons
 
 template <typename Bound>
 std::optional<double> largest(const std::vector<ErrorRow>& rows, const Bound& bound) {
-  std::optional<double> largest = 0;
-  for (const ErrorRow& row : rows) {
-    if (!bound(row)) return std::nullopt;
-    largest = std::max(*largest, *bound(row));
-  }
+  std::optional<double> largest;
+  for (const ErrorRow& row : rows)
+    if (bound(row)) largest = std::max(largest.value_or(0), *bound(row));
   return largest;
 }
 
 }  // namespace
 
-VerifyReport verify(const Object& object, std::shared_ptr<const ReductionMap> map, const VerifyOptions& options) {
-  validate(options);
+std::vector<float> verified_minifications(const ReductionMap& map) {
+  constexpr float kFirst = 0.5f;
+  constexpr int kWidestPart = 32;
+  std::vector<float> minifications{kFirst};
+  while (minifications.back() * 2 * kWidestPart <= static_cast<float>(map.size))
+    minifications.push_back(2 * minifications.back());
+  return minifications;
+}
+
+VerifyReport verify(const Object& object, std::shared_ptr<const ReductionMap> map, const VerifyOptions& asked) {
+  const VerifyOptions options = settled(asked, *map);
   const PixelRenderer renderer(object);
   const std::vector<PixelCase> pixels = draw(renderer, *map, options);
   const bool supersampled = is_supersampled(object, Method::kMap, {map, nullptr, nullptr});
@@ -167,8 +176,8 @@ VerifyReport verify(const Object& object, std::shared_ptr<const ReductionMap> ma
 }
 
 std::vector<ErrorRow> verify_averaged_material(const Object& object, const ReductionMap& map,
-                                               const VerifyOptions& options) {
-  validate(options);
+                                               const VerifyOptions& asked) {
+  const VerifyOptions options = settled(asked, map);
   const PixelRenderer renderer(object);
   const std::vector<PixelCase> pixels = draw(renderer, map, options);
   const auto parameters =

@@ -16,15 +16,17 @@
 
 namespace redmap {
 
-/// From half a texel a pixel, where the shader itself is sampled, to where a pixel of most objects sees all of it.
-inline const std::vector<float> kVerifiedMinifications{0.5f, 1, 2, 4, 8, 16, 32};
+/// Minifications that a map is verified at if nothing else is asked for, in octaves: from half a texel a pixel, where
+/// the shader itself is sampled, to pixels as wide as a 32nd of the map, where few of most objects are left. So maps of
+/// all sizes answer for the same distances.
+std::vector<float> verified_minifications(const ReductionMap& map);
 
 struct VerifyOptions {
   Quality quality = Quality::kDefault;
-  std::vector<float> minifications = kVerifiedMinifications;
-  int pixels = 100;        ///< for each minification
-  int spp = 1024;          ///< samples of the shader itself in every pixel, at least 2
-  double coverage = 0.95;  ///< of the bounds, in (0, 1)
+  std::vector<float> minifications;  ///< empty: verified_minifications()
+  int pixels = 100;                  ///< for each minification
+  int spp = 1024;                    ///< samples of the shader itself in every pixel, at least 2
+  double coverage = 0.95;            ///< of the bounds, in (0, 1)
   std::uint64_t seed = 0;
   bool stages = true;  ///< whether the error is taken apart
   std::function<void(double part)> progress;
@@ -56,7 +58,8 @@ VerifyReport verify(const Object& object, std::shared_ptr<const ReductionMap> ma
 std::vector<ErrorRow> verify_averaged_material(const Object& object, const ReductionMap& map,
                                                const VerifyOptions& options);
 
-/// Largest of the rows' bounds: of the error, or of FLIP. Nothing if a row has none.
+/// Largest of the rows' bounds: of the error, or of FLIP. Rows of too few pixels have none, as where the
+/// object is hardly wider than a pixel; nothing if no row has one.
 std::optional<double> largest_error_bound(const std::vector<ErrorRow>& rows);
 std::optional<double> largest_flip_bound(const std::vector<ErrorRow>& rows);
 

@@ -110,6 +110,12 @@ for limit in "--max-error 1e-7" "--max-flip 1e-7"; do
   grep -q "ball" stderr || fail "expected the object's name, found: $(cat stderr)"
 done
 
+# The smallest map that keeps an error, or none.
+runs bake scene.toml -o smallest --max-error 0.3 --size 256
+holds smallest/ball.json 'j["search"]["steps"] and j["certificate"]["rows"] and j["size"][1] <= 256'
+refuses "no map of up to 16 texels" bake scene.toml -o none --max-error 1e-6 --size 16
+[ ! -e none ] || fail "expected no map of what was refused"
+
 # Maps that do not belong to the scene, or are none.
 mkdir kept && cp maps/ball.exr kept/
 refuses "marble" render scene.toml -o other.exr -D ball.shader=marble

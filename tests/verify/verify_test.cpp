@@ -128,6 +128,14 @@ TEST(Verify, ReportIsTheSame_ForAnyNumberOfThreads) {
   }
 }
 
+TEST(Verify, MapsOfAllSizes_AnswerForTheSameDistances) {
+  ReductionMap map;
+  map.size = 16;
+  EXPECT_EQ(verified_minifications(map), (std::vector<float>{0.5f}));
+  map.size = 256;
+  EXPECT_EQ(verified_minifications(map), (std::vector<float>{0.5f, 1, 2, 4, 8}));
+}
+
 TEST(Verify, AnotherSeed_GivesOtherPixels) {
   const Object object = ball("noise");
   const auto map = map_of(object, 64);
@@ -140,7 +148,7 @@ TEST(Verify, AnotherSeed_GivesOtherPixels) {
 TEST(Verify, OptionsOutOfRange_AreRefused) {
   const Object object = ball("noise");
   const auto map = map_of(object, 16);
-  VerifyOptions options = few_pixels({});
+  VerifyOptions options = few_pixels({-1});
   EXPECT_THROW(verify(object, map, options), Error);
   options = few_pixels({2}), options.pixels = 0;
   EXPECT_THROW(verify(object, map, options), Error);
