@@ -84,7 +84,7 @@ DeviceObject::Geometry DeviceObject::make_geometry() const {
 }
 
 DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, std::shared_ptr<const ReductionMap> map,
-                           bool shadows, std::uint32_t first_number)
+                           bool shadows, std::uint32_t first_number, std::uint32_t index)
     : device_(cache.device()),
       surface_(object.surface),
       map_(std::move(map)),
@@ -111,6 +111,7 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, std::shar
   numbers_ = mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
   draw_triangles_ = mesh ? numbers_ : kBoxTriangles;
   values_.numbers.x = first_number, values_.numbers.y = numbers_;
+  values_.numbers.w = index;
 
   for (const Image& image : shader.images) images_.emplace_back(*device_, image);
   const PipelineInputs inputs{kObjectBuffers, kObjectBindings - kObjectBuffers + static_cast<int>(images_.size()),

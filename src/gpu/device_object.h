@@ -42,10 +42,10 @@ struct FrameMemory {
 
 class DeviceObject {
  public:
-  /// `first_number`: of the object's triangles in the picture of numbers. `map`: null where the shader itself is to be
-  /// used. Throws Error on surfaces, shaders and maps that this renderer does not take.
+  /// `first_number`: of the object's triangles in the picture of numbers; `index`: of the object. `map`: null where the
+  /// shader itself is to be used. Throws Error on surfaces, shaders and maps that this renderer does not take.
   DeviceObject(PipelineCache& cache, const Object& object, std::shared_ptr<const ReductionMap> map, bool shadows,
-               std::uint32_t first_number);
+               std::uint32_t first_number, std::uint32_t index);
 
   std::uint32_t numbers() const { return numbers_; }
   bool filters() const { return map_ != nullptr; }

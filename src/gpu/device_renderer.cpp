@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 
 #include "gpu/device_object.h"
 #include "gpu/shadow_views.h"
@@ -61,113 +60,151 @@ void require_device_method(const DeviceRenderOptions& options) {
     throw Error("{} samples a pixel: expected a square number up to {} on a device", options.spp, kMostSamples);
 }
 
-struct DeviceRenderer::Impl {
-  std::shared_ptr<Device> device;
-  DeviceRenderOptions options;
+/// What depends on the size of the picture and on how many shadow maps there are.
+struct FrameTargets {
   Extent extent;
-  int samples, columns, band_rows, bands, shadow_layers;
-  std::size_t lights;
-  PipelineCache cache;
+  int samples, shadow_layers, columns, band_rows, bands;
   SharedBytes frame, views;
   LocalBuffer lists, radiance, picture;
   RenderTarget seen, shadows;
-  mutable DeviceBuffer read_back;
-  mutable CommandList commands;
+  DeviceBuffer read_back;
+  Bindings resolve_bindings;
+
+  FrameTargets(const Device& device, const ComputePipeline& resolve, const Scene& scene, int samples_a_side);
+  bool fits(const Scene& scene) const {
+    return scene.camera.width == extent.width && scene.camera.height == extent.height &&
+           shadow_view_count(scene) == shadow_layers;
+  }
+};
+
+FrameTargets::FrameTargets(const Device& device, const ComputePipeline& resolve, const Scene& scene, int samples_a_side)
+    : extent{scene.camera.width, scene.camera.height},
+      samples(samples_a_side),
+      shadow_layers(shadow_view_count(scene)),
+      columns(extent.width * samples),
+      band_rows(std::clamp(kBandSamples / columns / samples, 1, extent.height) * samples),
+      bands((extent.height * samples + band_rows - 1) / band_rows),
+      frame(device, sizeof(FrameBlock)),
+      views(device, sizeof(ViewBlock) * (shadow_layers + bands)),
+      lists(device, 16 * sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) * columns * band_rows),
+      radiance(device, 3 * sizeof(float) * columns * band_rows),
+      picture(device, sizeof(Vec4) * extent.width * extent.height),
+      seen(device, TargetKind::kNumbers, {columns, band_rows}),
+      shadows(device, TargetKind::kDepth,
+              shadow_layers > 0 ? Extent{shadow_size(shadow_layers), shadow_size(shadow_layers)} : Extent{1, 1},
+              std::max(shadow_layers, 1)),
+      read_back(device, picture.size()),
+      resolve_bindings(resolve) {
+  resolve_bindings.add(frame.buffer()).add(picture).add(lists).add(lists).add(radiance);
+  for (int unused = kParametersBinding; unused < kObjectBuffers; ++unused) resolve_bindings.add(lists);
+  resolve_bindings.add(seen);
+}
+
+struct DeviceRenderer::Impl {
+  std::shared_ptr<Device> device;
+  DeviceRenderOptions options;
+  int samples;
+  std::size_t lights;
+  PipelineCache cache;
+  const ComputePipeline& resolve;
   std::vector<std::string> names;
   std::vector<DeviceObject> objects;
-  const ComputePipeline* resolve = nullptr;
-  std::optional<Bindings> resolve_bindings;
+  std::unique_ptr<FrameTargets> targets;
+  mutable CommandList commands;
 
-  Impl(std::shared_ptr<Device> opened, const Scene& scene, const DeviceRenderOptions& chosen, int side);
-  void add_objects(const Scene& scene, const std::vector<std::shared_ptr<const ReductionMap>>& maps);
-  void record_shadows(const std::vector<ViewBlock>& shadow);
+  Impl(std::shared_ptr<Device> opened, const Scene& scene, const DeviceRenderOptions& chosen, int side,
+       const std::vector<std::shared_ptr<const ReductionMap>>& maps);
+  void make_targets(const Scene& scene);
+  void record_uploads(const Scene& scene, int frame);
+  void record_shadows();
   void record_band(const CameraRays& camera, int band);
   void check_shaders();
 };
 
 DeviceRenderer::Impl::Impl(std::shared_ptr<Device> opened, const Scene& scene, const DeviceRenderOptions& chosen,
-                           int side)
+                           int side, const std::vector<std::shared_ptr<const ReductionMap>>& maps)
     : device(std::move(opened)),
       options(chosen),
-      extent{scene.camera.width, scene.camera.height},
       samples(side),
-      columns(extent.width * samples),
-      band_rows(std::clamp(kBandSamples / columns / samples, 1, extent.height) * samples),
-      bands((extent.height * samples + band_rows - 1) / band_rows),
-      shadow_layers(shadow_view_count(scene)),
       lights(scene.lights.size()),
       cache(device),
-      frame(*device, sizeof(FrameBlock)),
-      views(*device, sizeof(ViewBlock) * (shadow_layers + bands)),
-      lists(*device, 16 * sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) * columns * band_rows),
-      radiance(*device, 3 * sizeof(float) * columns * band_rows),
-      picture(*device, sizeof(Vec4) * extent.width * extent.height),
-      seen(*device, TargetKind::kNumbers, {columns, band_rows}),
-      shadows(*device, TargetKind::kDepth,
-              shadow_layers > 0 ? Extent{shadow_size(shadow_layers), shadow_size(shadow_layers)} : Extent{1, 1},
-              std::max(shadow_layers, 1)),
-      read_back(*device, picture.size()),
-      commands(*device) {}
-
-void DeviceRenderer::Impl::add_objects(const Scene& scene,
-                                       const std::vector<std::shared_ptr<const ReductionMap>>& maps) {
+      resolve(cache.compute(resolve_text(), {kObjectBuffers, 1, sizeof(BandCall)})),
+      commands(*device) {
+  const bool shadows = std::ranges::any_of(scene.lights, &Light::shadows);
   std::uint32_t next = 1;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    objects.emplace_back(cache, scene.objects[i], maps[i], shadow_layers > 0, next);
+    objects.emplace_back(cache, scene.objects[i], maps[i], shadows, next, static_cast<std::uint32_t>(i));
     names.push_back(scene.objects[i].shader->info().name);
     next += objects.back().numbers();
   }
-  const PipelineInputs inputs{kObjectBuffers, 1, sizeof(BandCall)};
-  resolve = &cache.compute(resolve_text(), inputs);
-  resolve_bindings.emplace(*resolve);
-  resolve_bindings->add(frame.buffer()).add(picture).add(lists).add(lists).add(radiance);
-  for (int unused = kParametersBinding; unused < kObjectBuffers; ++unused) resolve_bindings->add(lists);
-  resolve_bindings->add(seen);
+  make_targets(scene);
+}
 
-  // The shadow maps' first frame clears them; until then nothing may read them.
-  const FrameMemory memory{&frame, &views, &lists, &radiance, &seen, &shadows};
-  frame.set(frame_block(scene, samples, 0));
-  frame.record_upload(commands);
-  commands.fill(lists, 0);
-  for (int layer = 0; layer < std::max(shadow_layers, 1); ++layer)
-    commands.begin_target(shadows, layer), commands.end_target();
-  commands.begin_target(seen), commands.end_target();
+void DeviceRenderer::Impl::make_targets(const Scene& scene) {
+  targets.reset();  // its memory first
+  targets = std::make_unique<FrameTargets>(*device, resolve, scene, samples);
+  const FrameMemory memory{&targets->frame,    &targets->views, &targets->lists,
+                           &targets->radiance, &targets->seen,  &targets->shadows};
+  targets->frame.set(frame_block(scene, samples, 0));
+  targets->frame.record_upload(commands);
+  commands.fill(targets->lists, 0);
+  // Cleared, so that they may be read where nothing is ever drawn.
+  commands.begin_target(targets->shadows), commands.end_target();
+  commands.begin_target(targets->seen), commands.end_target();
   for (DeviceObject& object : objects) object.attach(memory, commands);
   commands.run(kTimeout);
 }
 
-void DeviceRenderer::Impl::record_shadows(const std::vector<ViewBlock>& shadow) {
-  for (std::uint32_t layer = 0; layer < shadow.size(); ++layer) {
-    commands.begin_target(shadows, static_cast<int>(layer));
-    for (const DeviceObject& object : objects) object.record_draw(commands, TargetKind::kDepth, layer);
+void DeviceRenderer::Impl::record_uploads(const Scene& scene, int frame) {
+  FrameTargets& to = *targets;
+  FrameBlock block = frame_block(scene, samples, frame);
+  const std::vector<ViewBlock> shadow = shadow_views(scene, to.shadows.extent().width, block);
+  const Ball ball = ball_around(scene);
+  to.frame.set(block);
+  for (std::size_t i = 0; i < shadow.size(); ++i) to.views.set(shadow[i], i);
+  for (int band = 0; band < to.bands; ++band)
+    to.views.set(camera_view(scene.camera, ball, samples, band * to.band_rows, to.band_rows), shadow.size() + band);
+  to.frame.record_upload(commands), to.views.record_upload(commands);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    objects[i].place(scene.objects[i].transform);
+    objects[i].record_upload(commands);
+  }
+}
+
+void DeviceRenderer::Impl::record_shadows() {
+  for (int layer = 0; layer < targets->shadow_layers; ++layer) {
+    commands.begin_target(targets->shadows, layer);
+    for (const DeviceObject& object : objects)
+      object.record_draw(commands, TargetKind::kDepth, static_cast<std::uint32_t>(layer));
     commands.end_target();
   }
 }
 
 void DeviceRenderer::Impl::record_band(const CameraRays& camera, int band) {
+  const FrameTargets& to = *targets;
   BandCall call;
-  call.first_row = static_cast<std::uint32_t>(band * band_rows);
-  call.rows = static_cast<std::uint32_t>(std::min(band_rows, extent.height * samples - band * band_rows));
+  call.first_row = static_cast<std::uint32_t>(band * to.band_rows);
+  call.rows = static_cast<std::uint32_t>(std::min(to.band_rows, to.extent.height * samples - band * to.band_rows));
   call.filters = options.method == Method::kMap, call.draws = options.draws_one_basis;
-  commands.begin_target(seen);
+  commands.begin_target(to.seen);
   for (const DeviceObject& object : objects)
-    object.record_draw(commands, TargetKind::kNumbers, static_cast<std::uint32_t>(shadow_layers + band));
+    object.record_draw(commands, TargetKind::kNumbers, static_cast<std::uint32_t>(to.shadow_layers + band));
   commands.end_target();
-  for (const DeviceObject& object : objects) object.record_shading(commands, call, camera, samples, columns);
-  const std::uint32_t pixels = static_cast<std::uint32_t>(extent.width) * (call.rows / samples);
-  commands.dispatch(*resolve, *resolve_bindings, bytes_of(call), Workgroups{(pixels + 63) / 64, 1});
+  for (const DeviceObject& object : objects) object.record_shading(commands, call, camera, samples, to.columns);
+  const std::uint32_t pixels = static_cast<std::uint32_t>(to.extent.width) * (call.rows / samples);
+  commands.dispatch(resolve, to.resolve_bindings, bytes_of(call), Workgroups{(pixels + 63) / 64, 1});
 }
 
 /// Throws Error where a shader has said that it does not end.
 void DeviceRenderer::Impl::check_shaders() {
   DeviceBuffer counts(*device, sizeof(UVec4));
-  commands.copy(lists, counts, sizeof(UVec4));
+  commands.copy(targets->lists, counts, sizeof(UVec4));
   commands.run(kTimeout);
   UVec4 values;
   std::memcpy(&values, counts.data(), sizeof values);
   if (values.w != 0)
-    throw Error("shader \"{}\": {}(): expected loops that end within {} rounds in all, found more", names.front(),
-                status_function(values.w - 1), kMostRounds);
+    throw Error("shader \"{}\": {}(): expected loops that end within {} rounds in all, found more",
+                names[(values.w - 1) / kStatusFunctions], status_function(values.w - 1), kMostRounds);
 }
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scene, const DeviceRenderOptions& options,
@@ -187,8 +224,7 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scen
     else
       used[i] = maps[i];
   }
-  impl_ = std::make_unique<Impl>(std::move(device), scene, options, side);
-  impl_->add_objects(scene, used);
+  impl_ = std::make_unique<Impl>(std::move(device), scene, options, side, used);
 }
 
 DeviceRenderer::~DeviceRenderer() = default;
@@ -197,27 +233,15 @@ DeviceRenderer& DeviceRenderer::operator=(DeviceRenderer&&) noexcept = default;
 
 double DeviceRenderer::render(const Scene& scene, int frame) {
   Impl& impl = *impl_;
-  const bool same_size = scene.camera.width == impl.extent.width && scene.camera.height == impl.extent.height;
-  if (scene.objects.size() != impl.objects.size() || scene.lights.size() != impl.lights || !same_size ||
-      shadow_view_count(scene) != impl.shadow_layers)
-    throw Error("device renderer: expected the objects, lights and picture that it was made for, found others");
+  if (scene.objects.size() != impl.objects.size() || scene.lights.size() != impl.lights)
+    throw Error("device renderer: made for {} objects and {} lights, asked to render {} and {}", impl.objects.size(),
+                impl.lights, scene.objects.size(), scene.lights.size());
+  if (!impl.targets->fits(scene)) impl.make_targets(scene);
   const auto start = std::chrono::steady_clock::now();
-  FrameBlock block = frame_block(scene, impl.samples, frame);
-  const std::vector<ViewBlock> shadow = shadow_views(scene, impl.shadows.extent().width, block);
-  const Ball ball = ball_around(scene);
-  impl.frame.set(block);
-  for (std::size_t i = 0; i < shadow.size(); ++i) impl.views.set(shadow[i], i);
-  for (int band = 0; band < impl.bands; ++band)
-    impl.views.set(camera_view(scene.camera, ball, impl.samples, band * impl.band_rows, impl.band_rows),
-                   shadow.size() + band);
-  impl.frame.record_upload(impl.commands), impl.views.record_upload(impl.commands);
-  for (std::size_t i = 0; i < impl.objects.size(); ++i) {
-    impl.objects[i].place(scene.objects[i].transform);
-    impl.objects[i].record_upload(impl.commands);
-  }
-  impl.record_shadows(shadow);
+  impl.record_uploads(scene, frame);
+  impl.record_shadows();
   const CameraRays camera = make_camera_rays(scene.camera);
-  for (int band = 0; band < impl.bands; ++band) impl.record_band(camera, band);
+  for (int band = 0; band < impl.targets->bands; ++band) impl.record_band(camera, band);
   impl.commands.run(kTimeout);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   impl.check_shaders();
@@ -225,12 +249,13 @@ double DeviceRenderer::render(const Scene& scene, int frame) {
 }
 
 Image DeviceRenderer::picture() const {
-  impl_->commands.copy(impl_->picture, impl_->read_back, impl_->read_back.size());
+  FrameTargets& from = *impl_->targets;
+  impl_->commands.copy(from.picture, from.read_back, from.read_back.size());
   impl_->commands.run(kTimeout);
-  Image image(impl_->extent.width, impl_->extent.height, 3);
-  const std::byte* from = impl_->read_back.data();
-  for (std::size_t i = 0; i < image.pixels(); ++i)
-    std::memcpy(&image.data[3 * i], from + i * sizeof(Vec4), 3 * sizeof(float));
+  Image image(from.extent.width, from.extent.height, 3);
+  const std::byte* pixel = from.read_back.data();
+  for (std::size_t i = 0; i < image.pixels(); ++i, pixel += sizeof(Vec4))
+    std::memcpy(&image.data[3 * i], pixel, 3 * sizeof(float));
   return image;
 }
 

@@ -38,7 +38,7 @@ class DeviceRenderer {
   DeviceRenderer(DeviceRenderer&&) noexcept;
   DeviceRenderer& operator=(DeviceRenderer&&) noexcept;
 
-  /// Renders the same objects, lights and size of picture as they stand in `scene`. The picture stays on the device.
+  /// Renders the same objects and lights as they stand in `scene`. The picture stays on the device.
   /// Returns the seconds it took. Throws Error where a shader of the user's own does not end, naming it.
   double render(const Scene& scene, int frame);
   /// What was rendered last: linear RGB.

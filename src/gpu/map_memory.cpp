@@ -83,8 +83,11 @@ void set_map_traits(const ReductionMap& map, ObjectTraits& traits) {
   traits.has_coverage = !is_covered(map.weights);
   traits.wraps_u = map.weights.wraps_u();
   traits.has_normals = !map.normals.empty();
-  for (std::size_t b = 0; b < map.basis.size(); ++b)
-    traits.widths = std::max(traits.widths, widths_of(widths_in_use(model_of(map, b))));
+  for (std::size_t b = 0; b < map.basis.size(); ++b) {
+    const LobeModel model = model_of(map, b);
+    traits.widths = std::max(traits.widths, widths_of(widths_in_use(model)));
+    traits.draws_normals |= model.error > kTrustedError;
+  }
 }
 
 void set_map_block(const ReductionMap& map, ObjectBlock& block) {

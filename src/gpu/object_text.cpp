@@ -18,6 +18,7 @@ std::string definitions(const ShaderInfo& info, const ObjectTraits& traits) {
                                   traits.has_coverage ? 1 : 0);
   lines += fmt::format("#define REDMAP_WRAPS {}\n#define REDMAP_WIDTHS {}\n", traits.wraps_u ? 1 : 0, traits.widths);
   if (traits.shadows) lines += "#define REDMAP_SHADOWS\n";
+  if (traits.draws_normals) lines += "#define REDMAP_DRAWS_NORMALS\n";
   if (!info.file.empty()) lines += "#define REDMAP_GUARDED\n";
   return lines + fmt::format("const uint redmap_most_rounds = {}u;\n", kMostRounds);
 }

@@ -18,8 +18,9 @@ struct ObjectTraits {
   int basis = 0;              ///< 0: no map
   bool has_coverage = false;  ///< the map's texels have a coverage that is not 1 everywhere
   bool wraps_u = false;
-  bool has_normals = false;  ///< the map holds normals
-  int widths = 1;            ///< most Gaussians of a lobe model
+  bool has_normals = false;    ///< the map holds normals
+  bool draws_normals = false;  ///< no lobe model fits some basis reflectance
+  int widths = 1;              ///< most Gaussians of a lobe model
 };
 
 /// Stages of shading: values of specialization constant 0.

@@ -8,7 +8,7 @@ const uint redmap_bind_stage = 0u, redmap_near_stage = 1u, redmap_far_stage = 2u
 uint redmap_rounds = 0u;
 bool redmap_goes_on() { return ++redmap_rounds <= redmap_most_rounds; }
 void redmap_ended(uint function) {
-  if (redmap_rounds > redmap_most_rounds) redmap_counts[3] = 1u + function;
+  if (redmap_rounds > redmap_most_rounds) redmap_counts[3] = 1u + 8u * redmap_numbers.w + function;
   redmap_rounds = 0u;
 }
 #else

@@ -9,10 +9,12 @@ vec3 redmap_one_spread(uint redmap_b, RedmapNormals redmap_d, float redmap_w, ve
   if (redmap_variance <= redmap_begin || redmap_w <= 0.0) return redmap_mean;
   bool redmap_trusted = redmap_number(redmap_m + 1u) > 0.5;
   vec3 redmap_value = vec3(0.0);
+#ifdef REDMAP_DRAWS_NORMALS
   int redmap_count = redmap_trusted ? 0 : redmap_drawn_normals;
   for (int redmap_i = 0; redmap_i < redmap_count; redmap_i++)
     redmap_value += redmap_at_drawn(redmap_b, redmap_d, redmap_i, redmap_l, redmap_v) *
                     (redmap_w / float(redmap_drawn_normals));
+#endif
   if (redmap_trusted) {
     RedmapHalf redmap_h = redmap_half(redmap_l, redmap_v);
     RedmapLobes redmap_lobes = redmap_lobes_at(redmap_b, redmap_h.theta_degrees);
