@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "commands.h"
 #include "common.h"
+#include "gpu/bake.h"
 #include "map/map_file.h"
 #include "map_json.h"
 #include "render/closest_view.h"
@@ -109,6 +110,16 @@ nlohmann::json settle_sizes(const Options& options, SceneFile& file) {
   return json;
 }
 
+/// Where to bake: texts of the user's own run on a device anyway, those of the library where one was asked for.
+std::unique_ptr<TexelPasses> passes_for(const Options& options, const Object& object, const BakeOptions& bake_options) {
+  const ShaderInfo& shader = object.shader->info();
+  if (options.device.empty() && shader.file.empty()) return make_cpu_passes();
+  const std::string reason = reason_to_bake_on_cpu(*object.shader, bake_options);
+  if (reason.empty()) return make_device_passes(options.device);
+  if (!options.device.empty()) fmt::print(stderr, "{}: baked on the CPU: {}\n", object.name, reason);
+  return make_cpu_passes();
+}
+
 /// A map and what making it took.
 struct BakedMap {
   ReductionMap map;
@@ -116,9 +127,10 @@ struct BakedMap {
   nlohmann::json searched = nullptr;
 };
 
-BakedMap bake_as_asked(const BakeOptions& options, const Object& object) {
+BakedMap bake_as_asked(const Options& options, const BakeOptions& bake_options, const Object& object) {
   BakedMap baked;
-  baked.map = bake(*object.surface, *object.shader, options, &baked.report);
+  const std::unique_ptr<TexelPasses> passes = passes_for(options, object, bake_options);
+  baked.map = bake(*object.surface, *object.shader, bake_options, *passes, &baked.report);
   return baked;
 }
 
@@ -158,7 +170,8 @@ BakedMap bake_with_progress(const Options& options, const Object& object) {
     progress.update(fraction);
     return !interrupted();
   };
-  return options.max_error > 0 ? bake_smallest(options, bake_options, object) : bake_as_asked(bake_options, object);
+  return options.max_error > 0 ? bake_smallest(options, bake_options, object)
+                               : bake_as_asked(options, bake_options, object);
 }
 
 nlohmann::json bake_object(const Options& options, const Object& object) {

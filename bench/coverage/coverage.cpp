@@ -90,7 +90,7 @@ struct HeldOut {
   int beyond = 0;
 };
 
-/// Those of pixels_per_scene random interior pixels of a frame that are lit.
+/// Up to pixels_per_scene random pixels of a frame.
 HeldOut hold_out(const Scene& scene, int view, const std::shared_ptr<const ReductionMap>& map,
                  const CoverageOptions& options, Random& random) {
   const std::vector<ObjectData> data{{map, nullptr, nullptr}};
@@ -103,14 +103,13 @@ HeldOut hold_out(const Scene& scene, int view, const std::shared_ptr<const Reduc
   Tracer tracer(scene);
   tracer.set_frame(scene);
   HeldOut held_out;
-  constexpr int kDraws = 1000;  // for one interior pixel, where hardly any is
-  int interior = 0;
-  for (int draw = 0; draw < kDraws && interior < options.pixels_per_scene; ++draw) {
+  constexpr int kDraws = 2000;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    if (static_cast<int>(held_out.errors.size()) == options.pixels_per_scene) break;
     const int x = static_cast<int>(random.below(static_cast<std::uint32_t>(frame.width)));
     const int y = static_cast<int>(random.below(static_cast<std::uint32_t>(frame.height)));
     const PixelClass seen = classes[static_cast<std::size_t>(y) * frame.width + x];
     if (seen != PixelClass::kInterior && seen != PixelClass::kSeam) continue;
-    ++interior;
     const PixelFacts facts = look_at_pixel(scene, tracer, map->weights.extent(0), x, y);
     if (!facts.lit) continue;
     const auto bound = bound_of(*map->certificate, facts.minification, facts.half_degrees);

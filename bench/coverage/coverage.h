@@ -16,7 +16,7 @@ struct CoverageOptions {
   std::vector<std::string> shaders{"noise", "scales", "marble", "two_tinted_satin", "wood", "hammered_metal"};
   int map_size = 256;
   int scenes = 150;          ///< for each object and shader, each with its own camera and light
-  int pixels_per_scene = 8;  ///< random interior pixels; those that are lit count
+  int pixels_per_scene = 4;  ///< random interior pixels that are lit
   int frame_pixels = 16;     ///< a side of the frames
   int reference_spp = 1024;
   VerifyOptions verify;  ///< what the certificates are made with

@@ -27,6 +27,8 @@ class ReflectanceBasis {
  public:
   explicit ReflectanceBasis(int rows) : rows_(rows) {}
   int size() const { return size_; }
+  /// Product of two of them.
+  double gram(int i, int j) const { return gram_[i * kMaxUnknowns + j]; }
   /// At most kMaxUnknowns.
   void add(const float* scaled);
   void remove(int index);

@@ -32,6 +32,8 @@ class ReflectanceSampler {
   explicit ReflectanceSampler(const ShaderInfo& shader);
   /// Numbers a place: 3 * kDirectionSamples, and 3 more if the shader emits.
   int rows() const;
+  /// Of the reflection samples.
+  const DirectionPairs& directions() const { return directions_; }
   /// Safe to call from several threads, each with its own `out`.
   void sample(const BoundPatterns& patterns, SampledReflectances& out) const;
 

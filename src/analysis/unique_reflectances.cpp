@@ -59,6 +59,10 @@ void UniqueReflectances::insert(std::uint64_t key, const float* scaled, const Re
   if (keys_.size() >= 2 * capacity_) keep_smallest();
 }
 
+void UniqueReflectances::insert(std::uint64_t key, const ReflectancePlace& place) {
+  if (wants(key)) insert(key, std::vector<float>(rows_).data(), place);
+}
+
 void UniqueReflectances::finish() { keep_smallest(); }
 
 void UniqueReflectances::keep_smallest() {

@@ -18,8 +18,11 @@ class ReflectanceKeys {
   /// One key a place. `sums` is scratch.
   void compute(const SampledReflectances& sampled, std::vector<std::uint64_t>& keys, LaneVector<float>& sums) const;
 
- private:
   static constexpr int kProjections = 6;
+  /// What a value of `row` adds to a sum. A key is hash64(key, sum) over all sums, rounded to whole numbers.
+  float factor(int projection, int row) const { return projection_[projection * rows_ + row]; }
+
+ private:
   int rows_;
   std::vector<float> projection_;  ///< kProjections x rows, row scales included
 };
@@ -37,6 +40,8 @@ class UniqueReflectances {
   UniqueReflectances(int rows, std::size_t capacity);
   /// `scaled` has `rows` numbers. What is known already, or does not belong to the subset, changes nothing.
   void insert(std::uint64_t key, const float* scaled, const ReflectancePlace& place);
+  /// The same where the vector follows through scaled(), after finish().
+  void insert(std::uint64_t key, const ReflectancePlace& place);
   /// Whether insert() would store this key.
   bool wants(std::uint64_t key) const { return key <= largest_key_ && !index_.contains(key); }
   /// Drops what exceeds the capacity and orders by key. To be called once, after the last insert().
@@ -45,6 +50,7 @@ class UniqueReflectances {
   std::size_t size() const { return keys_.size(); }
   int rows() const { return rows_; }
   const float* scaled(std::size_t i) const { return &scaled_[i * rows_]; }
+  float* scaled(std::size_t i) { return &scaled_[i * rows_]; }
   const ReflectancePlace& place(std::size_t i) const { return places_[i]; }
   std::uint64_t key(std::size_t i) const { return keys_[i]; }
   /// Estimated number of distinct keys that were offered.

@@ -47,6 +47,10 @@ class TexelGrid {
   std::size_t texels() const { return static_cast<std::size_t>(extent_.width) * extent_.height; }
   std::size_t tiles() const { return static_cast<std::size_t>(across_) * down_; }
   TexelRegion tile(std::size_t index) const;
+  /// Index in the whole grid of texel `index` of `region`.
+  std::size_t texel(TexelRegion region, std::size_t index) const {
+    return (region.y + index / region.width) * extent_.width + region.x + index % region.width;
+  }
 
  private:
   const Surface& surface_;

@@ -9,12 +9,14 @@ namespace redmap {
 namespace {
 
 vk::DescriptorType type_of(const PipelineInputs& inputs, int binding) {
-  return binding < inputs.buffers ? vk::DescriptorType::eStorageBuffer : vk::DescriptorType::eCombinedImageSampler;
+  if (binding < inputs.buffers) return vk::DescriptorType::eStorageBuffer;
+  if (binding < inputs.buffers + inputs.images) return vk::DescriptorType::eCombinedImageSampler;
+  return vk::DescriptorType::eUniformBuffer;
 }
 
 vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device, const PipelineInputs& inputs) {
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
-  for (int i = 0; i < inputs.buffers + inputs.images; ++i)
+  for (int i = 0; i < inputs.buffers + inputs.images + inputs.uniforms; ++i)
     bindings.emplace_back(i, type_of(inputs, i), 1, vk::ShaderStageFlagBits::eCompute);
   return {device, vk::DescriptorSetLayoutCreateInfo({}, bindings)};
 }
@@ -23,6 +25,7 @@ vk::raii::DescriptorPool make_pool(const vk::raii::Device& device, const Pipelin
   std::vector<vk::DescriptorPoolSize> sizes;
   if (inputs.buffers > 0) sizes.emplace_back(vk::DescriptorType::eStorageBuffer, inputs.buffers);
   if (inputs.images > 0) sizes.emplace_back(vk::DescriptorType::eCombinedImageSampler, inputs.images);
+  if (inputs.uniforms > 0) sizes.emplace_back(vk::DescriptorType::eUniformBuffer, inputs.uniforms);
   return {device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes)};
 }
 
@@ -62,7 +65,7 @@ DeviceBuffer::DeviceBuffer(const Device& device, std::size_t size) : impl_(new I
     const vk::raii::Device& vulkan = impl_->device->device;
     using Memory = vk::MemoryPropertyFlagBits;
     using Usage = vk::BufferUsageFlagBits;
-    const auto usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
+    const auto usage = Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     impl_->buffer = {vulkan, vk::BufferCreateInfo({}, impl_->size, usage)};
     impl_->memory = impl_->device->allocate(impl_->buffer.getMemoryRequirements(),
                                             Memory::eHostVisible | Memory::eHostCoherent, Memory::eHostCached);
@@ -140,7 +143,7 @@ ComputeTask& ComputeTask::operator=(ComputeTask&&) noexcept = default;
 
 void ComputeTask::bind(int binding, const DeviceBuffer& buffer) {
   const vk::DescriptorBufferInfo info(*buffer.impl().buffer, 0, VK_WHOLE_SIZE);
-  const vk::WriteDescriptorSet write(*impl_->set, binding, 0, vk::DescriptorType::eStorageBuffer, {}, info);
+  const vk::WriteDescriptorSet write(*impl_->set, binding, 0, type_of(impl_->pipeline->inputs, binding), {}, info);
   impl_->device->device.updateDescriptorSets(write, {});
 }
 

@@ -185,6 +185,7 @@ std::shared_ptr<Device> Device::open(const std::string& choice) {
 
 const DeviceInfo& Device::info() const { return impl_->info; }
 std::size_t Device::largest_buffer() const { return impl_->limits.maxStorageBufferRange; }
+bool Device::has_doubles() const { return impl_->physical.getFeatures().shaderFloat64; }
 
 void keep_until_exit(std::shared_ptr<void> handles) {
   static std::mutex mutex;

@@ -47,6 +47,8 @@ class Device {
   const DeviceInfo& info() const;
   /// Bytes of the largest storage buffer.
   std::size_t largest_buffer() const;
+  /// Whether shaders may compute in 64 bits.
+  bool has_doubles() const;
 
   struct Impl;
   const std::shared_ptr<Impl>& impl() const { return impl_; }
@@ -56,7 +58,7 @@ class Device {
   std::shared_ptr<Impl> impl_;
 };
 
-/// Memory that shaders read and write as a storage buffer, and that the host sees.
+/// Memory that shaders read and write as a storage buffer, or read as a uniform buffer, and that the host sees.
 class DeviceBuffer {
  public:
   /// Throws Error where the device has no buffers of that size. At least one byte.
@@ -92,11 +94,12 @@ class DeviceImage {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What a compute shader is given: storage buffers at bindings 0, 1, ... of set 0, then pictures, and one block of push
-/// constants.
+/// What a compute shader is given: storage buffers at bindings 0, 1, ... of set 0, then pictures, then uniform buffers
+/// (16 kB at least), and one block of push constants.
 struct PipelineInputs {
   int buffers = 0, images = 0;
   std::size_t push_constant_bytes = 0;
+  int uniforms = 0;
 };
 
 /// A compute shader, ready to run. Safe to share between threads.

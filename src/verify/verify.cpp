@@ -90,18 +90,21 @@ const MeasuredPixel& worst_of(std::span<const MeasuredPixel> pixels) {
                            [](const MeasuredPixel& a, const MeasuredPixel& b) { return a.error < b.error; });
 }
 
-/// Bounds by the angle of the half vector, which together cover what they say, in every row by itself.
+/// Bounds by minification and by the angle of the half vector, which together cover what they say.
 void bound_kinds(const VerifyReport& report, const VerifyOptions& options, Certificate& certificate) {
+  const int kinds = static_cast<int>(options.minifications.size()) * kHalfAngleKinds;
+  // Pixels were drawn one minification after the other: their order within each is random, and so is who is even.
+  std::vector<ErrorOfKind> errors;
+  for (const MeasuredPixel& pixel : report.pixels)
+    errors.push_back({pixel.error, static_cast<int>(row_of(pixel, options.minifications)) * kHalfAngleKinds +
+                                       half_angle_kind(pixel.pixel.half_degrees)});
+  if (errors.size() / 2 < fewest_cases(options.coverage)) return;
+  const ConformalBounds bounds(errors, kinds, options.coverage);
   for (Certificate::Row& row : certificate.rows) {
-    // Pixels stand in the order in which they were drawn, which is random.
-    std::vector<ErrorOfKind> errors;
-    for (const MeasuredPixel& pixel : report.pixels)
-      if (options.minifications[row_of(pixel, options.minifications)] == row.minification)
-        errors.push_back({pixel.error, half_angle_kind(pixel.pixel.half_degrees)});
-    row.bound_of_kind.fill(row.bound);
-    if (errors.size() / 2 < fewest_cases(options.coverage)) continue;
-    const ConformalBounds bounds(errors, kHalfAngleKinds, options.coverage);
-    for (int kind = 0; kind < kHalfAngleKinds; ++kind) row.bound_of_kind[kind] = static_cast<float>(bounds.bound(kind));
+    const auto at = std::find(options.minifications.begin(), options.minifications.end(), row.minification);
+    const int first = static_cast<int>(at - options.minifications.begin()) * kHalfAngleKinds;
+    for (int kind = 0; kind < kHalfAngleKinds; ++kind)
+      row.bound_of_kind[kind] = static_cast<float>(bounds.bound(first + kind));
   }
 }
 

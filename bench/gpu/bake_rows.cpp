@@ -1,0 +1,52 @@
+#include "gpu/bake_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/bake.h"
+#include "gpu/bake.h"
+
+namespace redmap::bench {
+namespace {
+
+/// One step of a byte, and what rounding to a byte may add to it.
+constexpr double kOneByte = 1.5 / 255;
+
+}  // namespace
+
+MapDifference compare_maps(const ReductionMap& a, const ReductionMap& b) {
+  MapDifference result;
+  result.same_basis = a.basis.size() == b.basis.size() && a.weights.extent(0) == b.weights.extent(0);
+  if (!result.same_basis) return result;
+  for (std::size_t i = 0; i < a.basis.size(); ++i)
+    result.farthest_basis = std::max(result.farthest_basis, double(length(a.basis[i].position - b.basis[i].position)));
+  const auto [width, height] = a.weights.extent(0);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double coverage = std::abs(a.weights.coverage(0, x, y) - b.weights.coverage(0, x, y));
+      if (a.weights.coverage(0, x, y) <= 0 && b.weights.coverage(0, x, y) <= 0) continue;
+      ++result.covered;
+      bool differs = coverage > kOneByte;
+      for (int c = 0; c < a.weights.channels(); ++c) {
+        const double difference =
+            std::abs(a.weights.value(0, x, y, c) - b.weights.value(0, x, y, c)) / a.weights.scales()[c];
+        result.mean_weight += difference;
+        differs = differs || difference > kOneByte;
+      }
+      result.flipped += differs;
+    }
+  result.mean_weight /= static_cast<double>(std::max<std::size_t>(1, result.covered) * a.basis.size());
+  return result;
+}
+
+BakeRow measure_bake(const Surface& surface, const std::string& shader, int size, const std::string& device) {
+  const std::shared_ptr<const Shader> made = make_library_shader(shader);
+  BakeOptions options;
+  options.size = size;
+  BakeReport cpu, gpu;
+  const ReductionMap expected = bake(surface, *made, options, &cpu);
+  const ReductionMap found = bake(surface, *made, options, *make_device_passes(device), &gpu);
+  return {shader, size, gpu.seconds, cpu.seconds, compare_maps(expected, found)};
+}
+
+}  // namespace redmap::bench
