@@ -161,6 +161,17 @@ BakedMap bake_smallest(const Options& options, BakeOptions bake_options, const O
   return {std::move(result.map), result.report, {{"max_error", options.max_error}, {"steps", steps}}};
 }
 
+/// What the bake found out about shading frames that the shader does not declare.
+void print_hidden_frames(const std::string& object, const ReductionMap& map, const BakeReport& report) {
+  if (!map.hides_frames) return;
+  if (!map.tangents.empty())
+    fmt::print("{}: {} hides the direction of its grain: found by probing\n", object, map.shader);
+  if (report.probed_normals == 0) return;
+  const double found = 1 - static_cast<double>(report.normals_not_found) / static_cast<double>(report.probed_normals);
+  fmt::print("{}: {} hides its shading normals: found by probing at {:.2f} % of {} places{}\n", object, map.shader,
+             100 * found, report.probed_normals, found < 1 ? ", the others keep the interpolated normal" : "");
+}
+
 BakedMap bake_with_progress(const Options& options, const Object& object) {
   BakeOptions bake_options = options.bake;
   bake_options.selection = options.selection == "paper" ? BasisSelection::kPaper : BasisSelection::kGreedy;
@@ -192,6 +203,7 @@ nlohmann::json bake_object(const Options& options, const Object& object) {
       map.basis.size() == 1 ? "" : "s", map.residual, map.tolerance, verdict_name(map.verdict),
       map.verdict_reason.empty() ? "" : ": ", map.verdict_reason, report.seconds,
       static_cast<double>(texel_bytes(map)) * 1e-6, path.string());
+  print_hidden_frames(object.name, map, report);
   return json;
 }
 

@@ -14,6 +14,7 @@
 #include "map_json.h"
 #include "scene/map_shader.h"
 #include "shader/shader.h"
+#include "shader/shading_frames.h"
 
 namespace redmap::cli {
 
@@ -116,7 +117,7 @@ void write_pictures(const ReductionMap& map, const Shader& shader, const std::fi
   };
   const int first = first_level(map.weights);
   write(coverage_picture(map.weights, first), "coverage.png");
-  const std::unique_ptr<BoundPatterns> patterns = shader.bind(basis_points(map));
+  const std::unique_ptr<BoundPatterns> patterns = bind_in_frames(shader, basis_points(map), basis_frames(map));
   for (std::size_t b = 0; b < map.basis.size(); ++b) {
     write(sphere_picture(*patterns, b), fmt::format("basis{:02}.png", b));
     write(weight_picture(map.weights, first, static_cast<int>(b)), fmt::format("weight{:02}.png", b));

@@ -41,6 +41,9 @@ nlohmann::json bake_json(const ReductionMap& map, const BakeReport& report) {
   json["refined_texels"] = report.refined_texels;
   json["distinct_reflectances"] = report.distinct_reflectances;
   json["outlier_basis"] = report.outlier_basis;
+  if (map.hides_frames) json["hides_frames"] = true;
+  if (report.probed_normals > 0)
+    json["probed_normals"] = report.probed_normals, json["normals_not_found"] = report.normals_not_found;
   json["machine"] = machine_json();
   return json;
 }

@@ -32,6 +32,14 @@ constexpr Gloss ggx(const char* name, float roughness) { return {name, 1, roughn
 constexpr Gloss kGlosses[] = {phong("phong20", 20), phong("phong100", 100), phong("phong500", 500), ggx("ggx.4", 0.4f),
                               ggx("ggx.2", 0.2f),   ggx("ggx.1", 0.1f),     ggx("ggx.05", 0.05f)};
 
+/// Anisotropic ones, whose grain turns from place to place instead of the normal.
+constexpr const char* kGrain = "grain";
+struct GrainGloss {
+  const char* name;
+  float ward, along, across;
+};
+constexpr GrainGloss kGrainGlosses[] = {{"ward.1x.4", 1, 0.1f, 0.4f}, {"ggx.05x.3", 0, 0.05f, 0.3f}};
+
 /// Texels to the largest bump of fBm, and to a row of bricks; caps and ridges are half as large.
 constexpr double kTexelsPerBump = 32;
 
@@ -97,15 +105,34 @@ Scene make_plane_scene(const std::shared_ptr<const Surface>& surface, const std:
 
 }  // namespace
 
-std::vector<std::string> bump_names() { return names_of(kBumps); }
-std::vector<std::string> gloss_names() { return names_of(kGlosses); }
+std::vector<std::string> bump_names() {
+  std::vector<std::string> names = names_of(kBumps);
+  names.emplace_back(kGrain);
+  return names;
+}
+std::vector<std::string> gloss_names() {
+  std::vector<std::string> names = names_of(kGlosses);
+  std::ranges::copy(names_of(kGrainGlosses), std::back_inserter(names));
+  return names;
+}
+
+bool go_together(const std::string& bump, const std::string& gloss) {
+  const bool turns = std::ranges::find(kGrainGlosses, gloss, &GrainGloss::name) != std::end(kGrainGlosses);
+  return (bump == kGrain) == turns;
+}
 
 std::shared_ptr<const Shader> make_bumpy_shader(const std::string& bump, const std::string& gloss, double texel,
                                                 int busy) {
+  const float scale = static_cast<float>(1 / (kTexelsPerBump * texel));
+  if (bump == kGrain) {
+    const GrainGloss& g = find_named(kGrainGlosses, gloss, "gloss of a grain");
+    return make_library_shader("brushed_metal",
+                               {{"scale", {scale}}, {"ward", {g.ward}}, {"roughness", {g.along, g.across}}});
+  }
   const Bump& b = find_named(kBumps, bump, "bump");
   const Gloss& g = find_named(kGlosses, gloss, "gloss");
   return make_library_shader("bumps", {{"kind", {b.kind}},
-                                       {"scale", {static_cast<float>(1 / (kTexelsPerBump * texel))}},
+                                       {"scale", {scale}},
                                        {"slope", {b.slope}},
                                        {"gloss", {g.gloss}},
                                        {"width", {g.width}},

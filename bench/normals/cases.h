@@ -14,8 +14,12 @@ namespace redmap::bench {
 std::vector<std::string> bump_names();
 std::vector<std::string> gloss_names();
 
-/// The shader `bumps` as one case, its features as large in texels on every surface: `texel` is a texel's width in
-/// object units. `busy`: evaluations of noise that change nothing. Throws Error naming what there is.
+/// Whether they make a case: the bump "grain" with anisotropic glosses, all others with the others.
+bool go_together(const std::string& bump, const std::string& gloss);
+
+/// The shader `bumps`, or `brushed_metal` for a grain, as one case, its features as large in texels on every surface:
+/// `texel` is a texel's width in object units. `busy`: evaluations of noise that change nothing. Throws Error naming
+/// what there is.
 std::shared_ptr<const Shader> make_bumpy_shader(const std::string& bump, const std::string& gloss, double texel,
                                                 int busy);
 /// Whether that shader is one reflectance about varying normals.

@@ -152,7 +152,8 @@ ObjectData make_data(const Surface& surface, const Shader& shader, const Normals
   data.map = std::make_shared<const ReductionMap>(bake(surface, shader, baking));
   data.parameters = shared(build_parameter_pyramid(surface, shader, options.map_size));
   if (!data.normals) data.normals = shared(build_normal_pyramid(surface, shader, options.map_size));
-  if (!data.slopes) data.slopes = shared(build_slope_pyramid(surface, shader, options.map_size));
+  if (!data.slopes && shader.info().perturbs_normals)
+    data.slopes = shared(build_slope_pyramid(surface, shader, options.map_size));
   return data;
 }
 
@@ -183,11 +184,14 @@ int busy_for(double microseconds) {
 std::vector<NormalsRow> measure_normals(const NormalsOptions& options) {
   // Whatever is misspelt is found before hours are spent.
   for (const std::string& object : options.objects) make_bumpy_surface(object, options.models);
+  std::size_t looks = 0;
   for (const std::string& bump : options.bumps)
-    for (const std::string& gloss : options.glosses) make_bumpy_shader(bump, gloss, 0.003, 0);
+    for (const std::string& gloss : options.glosses)
+      if (go_together(bump, gloss)) make_bumpy_shader(bump, gloss, 0.003, 0), ++looks;
+  if (looks == 0)
+    throw Error("no gloss goes with these bumps: expected \"grain\" with ward.1x.4 or ggx.05x.3, others with others");
   const int busy = busy_for(options.shader_microseconds);
-  const double total = static_cast<double>(options.objects.size() * options.bumps.size() * options.glosses.size() *
-                                           options.minifications.size());
+  const double total = static_cast<double>(options.objects.size() * looks * options.minifications.size());
   double done = 0;
   std::vector<NormalsRow> rows;
   for (const std::string& object : options.objects) {
@@ -196,6 +200,7 @@ std::vector<NormalsRow> measure_normals(const NormalsOptions& options) {
     for (const std::string& bump : options.bumps) {
       ObjectData data;
       for (const std::string& gloss : options.glosses) {
+        if (!go_together(bump, gloss)) continue;
         const auto shader = make_bumpy_shader(bump, gloss, texel, busy);
         data = make_data(*surface, *shader, options, data);
         for (const double minification : options.minifications) {

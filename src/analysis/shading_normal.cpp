@@ -38,6 +38,75 @@ Found run(Prober& prober, NormalMethod method) {
   return run_cascade(prober);
 }
 
+const Vector kZ{0, 0, 1};
+
+/// The first step of the cascade for many patterns at once: every question is put to all of them, which is what
+/// shaders answer fastest.
+class GradientsOfAll {
+ public:
+  explicit GradientsOfAll(const BoundPatterns& patterns)
+      : patterns_(patterns),
+        fits_(patterns.size(), GradientFit{kZ}),
+        alive_(patterns.size(), 1),
+        asked_(patterns.size()),
+        answers_(patterns.size()) {
+    pairs_.resize(patterns.size());
+  }
+  void run(ShadingNormals& result) {
+    const GradientSteps steps = gradient_steps(kPolar, kFloatPrecision);
+    fit(kFirstPolar, steps.first, result), fit(kPolar, steps.second, result);
+    ask(result, [&](std::size_t i) { return symmetry_directions(fits_[i].normal, kPolar); });
+    for (std::size_t i = 0; i < alive_.size(); ++i) {
+      if (!alive_[i] || !is_symmetric(fits_[i], kPolar, answers_[i], kFloatPrecision)) continue;
+      const Vector& n = fits_[i].normal;
+      result.normal.set(i, Vec3{static_cast<float>(n.x()), static_cast<float>(n.y()), static_cast<float>(n.z())});
+      result.found[i] = 1;
+    }
+  }
+
+ private:
+  void fit(double polar, double step, ShadingNormals& result) {
+    const auto probe = [&](std::size_t i) { return GradientProbe{fits_[i].normal, polar, step}; };
+    ask(result, [&](std::size_t i) { return gradient_directions(probe(i)); });
+    for (std::size_t i = 0; i < alive_.size(); ++i) {
+      if (!alive_[i]) continue;
+      const auto found = fit_gradients(probe(i), answers_[i], kFloatPrecision);
+      alive_[i] = found.has_value();
+      if (!found) continue;
+      fits_[i] = *found;
+      if (fits_[i].normal.z() < 0) fits_[i].normal = -fits_[i].normal;
+    }
+  }
+  template <typename DirectionsOf>
+  void ask(ShadingNormals& result, const DirectionsOf& directions_of) {
+    std::size_t most = 0;
+    for (std::size_t i = 0; i < alive_.size(); ++i) {
+      asked_[i] = alive_[i] ? directions_of(i) : std::vector<Vector>();
+      answers_[i].resize(asked_[i].size());
+      result.calls += asked_[i].size(), most = std::max(most, asked_[i].size());
+    }
+    for (std::size_t q = 0; q < most; ++q) {
+      for (std::size_t i = 0; i < pairs_.to_light.stride(); ++i) {
+        const std::size_t from = std::min(i, alive_.size() - 1);
+        const Vector& d = alive_[from] ? asked_[from][q] : kZ;
+        const Vec3 direction{static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z())};
+        pairs_.to_light.set(i, direction), pairs_.to_viewer.set(i, direction);
+      }
+      patterns_.radiance_each(pairs_, radiance_);
+      for (std::size_t i = 0; i < alive_.size(); ++i)
+        if (alive_[i]) answers_[i][q] = static_cast<double>(radiance_[0][i]) + radiance_[1][i] + radiance_[2][i];
+    }
+  }
+
+  const BoundPatterns& patterns_;
+  std::vector<GradientFit> fits_;
+  std::vector<std::uint8_t> alive_;  ///< not given up
+  std::vector<std::vector<Vector>> asked_;
+  std::vector<std::vector<double>> answers_;
+  DirectionPairs pairs_;
+  Planes<3> radiance_;
+};
+
 /// Radiance of one pattern. Directions are rounded to floats, and so is what comes back.
 class PatternProbe {
  public:
@@ -80,8 +149,10 @@ ShadingNormals estimate_shading_normals(const BoundPatterns& patterns, NormalMet
   ShadingNormals result;
   result.normal.resize(patterns.size());
   result.found.resize(patterns.size());
+  if (method == NormalMethod::kCascade) GradientsOfAll(patterns).run(result);
   PatternProbe probe(patterns);
   for (std::size_t i = 0; i < patterns.size(); ++i) {
+    if (result.found[i]) continue;
     const AskRadiance ask = [&](std::span<const DirectionPair> pairs, std::span<double> radiance) {
       probe.ask(i, pairs, radiance);
     };

@@ -12,40 +12,37 @@ constexpr int kProbes = 3;
 constexpr double kProbeAzimuth = 0.3, kVerifyAzimuth = 0.7;
 constexpr double kThird = 2 * std::numbers::pi / kProbes;
 
-/// What three probes found.
-struct GradientFit {
-  Vector normal;
-  double slope = 0;  ///< mean |dR / d polar angle|
-  double level = 0;  ///< mean R
-};
+}  // namespace
 
-/// Central differences at three probes `polar` radians around `axis`, along and across the great circle from it: a
-/// difference across vanishes to all orders where the axis is the normal.
-std::optional<GradientFit> fit_gradients(Prober& prober, const Vector& axis, double polar, double step) {
-  const PolarFrame frame(axis);
+std::vector<Vector> gradient_directions(const GradientProbe& probe) {
+  const PolarFrame frame(probe.axis);
   std::vector<Vector> asked;
   for (int k = 0; k < kProbes; ++k) {
     const double azimuth = kProbeAzimuth + k * kThird;
-    const Vector centre = frame.at(polar, azimuth), across = frame.outward(azimuth + kRightAngle);
-    for (const double s : {step, -step}) asked.push_back(frame.at(polar + s, azimuth));
-    for (const double s : {step, -step}) asked.push_back(std::cos(s) * centre + std::sin(s) * across);
+    const Vector centre = frame.at(probe.polar, azimuth), across = frame.outward(azimuth + kRightAngle);
+    for (const double s : {probe.step, -probe.step}) asked.push_back(frame.at(probe.polar + s, azimuth));
+    for (const double s : {probe.step, -probe.step}) asked.push_back(std::cos(s) * centre + std::sin(s) * across);
   }
-  const std::vector<double>& r = prober.retro(asked);
+  return asked;
+}
 
+std::optional<GradientFit> fit_gradients(const GradientProbe& probe, std::span<const double> radiance,
+                                         double precision) {
   // The normal is what is most nearly perpendicular to all d x grad R. Probes that touch black say nothing.
+  const PolarFrame frame(probe.axis);
   GradientFit fit;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   int used = 0;
   for (int k = 0; k < kProbes; ++k) {
-    const double* at = &r[4 * k];
+    const double* at = &radiance[4 * k];
     if (at[0] == 0 || at[1] == 0 || at[2] == 0 || at[3] == 0) continue;
     const double azimuth = kProbeAzimuth + k * kThird;
-    const Vector centre = frame.at(polar, azimuth), along = frame.at(polar + kRightAngle, azimuth);
+    const Vector centre = frame.at(probe.polar, azimuth), along = frame.at(probe.polar + kRightAngle, azimuth);
     const Vector gradient =
-        (along * (at[0] - at[1]) + frame.outward(azimuth + kRightAngle) * (at[2] - at[3])) / (2 * step);
+        (along * (at[0] - at[1]) + frame.outward(azimuth + kRightAngle) * (at[2] - at[3])) / (2 * probe.step);
     // A gradient below the rounding of the differences is no gradient.
     const double length = gradient.norm(), level = (at[0] + at[1]) / 2;
-    if (!(length * step > 10 * prober.precision() * std::abs(level))) continue;
+    if (!(length * probe.step > 10 * precision * std::abs(level))) continue;
     const Vector perpendicular = centre.cross(gradient) / length;
     sum += perpendicular * perpendicular.transpose();
     fit.slope += std::abs(gradient.dot(along)), fit.level += level;
@@ -53,24 +50,23 @@ std::optional<GradientFit> fit_gradients(Prober& prober, const Vector& axis, dou
   }
   if (used < 2) return std::nullopt;
   fit.slope /= used, fit.level /= used;
-  fit.normal = prober.outward(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0));
+  fit.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0);
   return fit;
 }
 
-/// Whether R is the same at three azimuths on three circles about the normal, where a normal that is wrong by an angle
-/// of `allowed` would show: it changes R by about that angle times the slope, or, on a circle much brighter or darker
-/// than the probes, times that contrast.
-bool is_symmetric(Prober& prober, const GradientFit& fit, double polar) {
-  const double allowed = prober.precision() > 1e-10 ? 1e-3 : 1e-4;
-  const PolarFrame frame(fit.normal);
+std::vector<Vector> symmetry_directions(const Vector& normal, double polar) {
+  const PolarFrame frame(normal);
   std::vector<Vector> asked;
   // Inside and outside the circle of the probes, which were seen to agree already.
-  const double circles[] = {0.27 * polar, 0.78 * polar, 1.67 * polar};
-  for (const double circle : circles)
+  for (const double circle : {0.27 * polar, 0.78 * polar, 1.67 * polar})
     for (int k = 0; k < kProbes; ++k) asked.push_back(frame.at(circle, kVerifyAzimuth + k * kThird));
-  const std::vector<double>& r = prober.retro(asked);
+  return asked;
+}
+
+bool is_symmetric(const GradientFit& fit, double polar, std::span<const double> radiance, double precision) {
+  const double allowed = precision > 1e-10 ? 1e-3 : 1e-4;
   for (int c = 0; c < 3; ++c) {
-    const double *begin = &r[c * kProbes], *end = begin + kProbes;
+    const double *begin = &radiance[c * kProbes], *end = begin + kProbes;
     const auto [low, high] = std::minmax_element(begin, end);
     const double contrast = std::abs((*low + *high) / 2 - fit.level);
     if (!(*low > 0)) return false;  // black all around is symmetric too
@@ -79,17 +75,25 @@ bool is_symmetric(Prober& prober, const GradientFit& fit, double polar) {
   return true;
 }
 
-}  // namespace
-
-std::optional<Vector> normal_by_gradients(Prober& prober, const Vector& start, double first_polar, double polar) {
+GradientSteps gradient_steps(double polar, double precision) {
   // Differences balance rounding against curvature. The second ones have no error of curvature and may be wider.
   const double scale = std::min(1.0, polar / 0.45);
-  const double first_step = scale * std::cbrt(prober.precision()), step = scale * std::pow(prober.precision(), 0.2);
-  const auto coarse = fit_gradients(prober, start, first_polar, first_step);
+  return {scale * std::cbrt(precision), scale * std::pow(precision, 0.2)};
+}
+
+std::optional<Vector> normal_by_gradients(Prober& prober, const Vector& start, double first_polar, double polar) {
+  const GradientSteps steps = gradient_steps(polar, prober.precision());
+  const auto fit = [&](const GradientProbe& probe) {
+    auto found = fit_gradients(probe, prober.retro(gradient_directions(probe)), prober.precision());
+    if (found) found->normal = prober.outward(found->normal);
+    return found;
+  };
+  const auto coarse = fit({start, first_polar, steps.first});
   if (!coarse) return std::nullopt;
-  const auto fine = fit_gradients(prober, coarse->normal, polar, step);
-  if (!fine || !is_symmetric(prober, *fine, polar)) return std::nullopt;
-  return fine->normal;
+  const auto fine = fit({coarse->normal, polar, steps.second});
+  if (!fine) return std::nullopt;
+  const std::vector<double>& around = prober.retro(symmetry_directions(fine->normal, polar));
+  return is_symmetric(*fine, polar, around, prober.precision()) ? std::optional(fine->normal) : std::nullopt;
 }
 
 }  // namespace redmap

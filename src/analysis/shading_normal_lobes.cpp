@@ -16,6 +16,24 @@ std::vector<Vector> spread_directions(const Vector& axis, int count, double heig
   return directions;
 }
 
+/// Near enough, the side of an anisotropic lobe looks symmetric too. Away from a narrow one there is nothing, or the
+/// same all around.
+bool is_symmetric_far_out(Prober& prober, const Vector& normal, double brightest) {
+  constexpr double kCircles[] = {0.12, 0.35};
+  constexpr int kAzimuths = 5;
+  constexpr double kAllowed = 0.02, kNothing = 1e-4;  // of the brightest on the circle, and of all
+  const PolarFrame frame(normal);
+  std::vector<Vector> asked;
+  for (const double circle : kCircles)
+    for (int k = 0; k < kAzimuths; ++k) asked.push_back(frame.at(circle, 2 * std::numbers::pi * k / kAzimuths));
+  const std::vector<double>& r = prober.retro(asked);
+  for (std::size_t c = 0; c < std::size(kCircles); ++c) {
+    const auto [low, high] = std::minmax_element(&r[c * kAzimuths], &r[c * kAzimuths] + kAzimuths);
+    if (*high - *low > kAllowed * *high + kNothing * brightest) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<Vector> normal_by_lobe(Prober& prober) {
@@ -25,7 +43,8 @@ std::optional<Vector> normal_by_lobe(Prober& prober) {
   const auto brightest = std::max_element(r.begin(), r.end());
   if (!(*brightest > 0)) return std::nullopt;
   const Vector start = directions[static_cast<std::size_t>(brightest - r.begin())];
-  return normal_by_gradients(prober, start, 0.02, 0.03);
+  const std::optional<Vector> normal = normal_by_gradients(prober, start, 0.02, 0.03);
+  return normal && is_symmetric_far_out(prober, *normal, *brightest) ? normal : std::nullopt;
 }
 
 std::optional<Vector> normal_by_centroid(Prober& prober) {

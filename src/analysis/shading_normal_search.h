@@ -7,6 +7,32 @@
 
 namespace redmap {
 
+/// Where gradients are taken: three probes `polar` radians around `axis`, by differences over `step` either side, along
+/// and across the great circle from it: a difference across vanishes to all orders where the axis is the normal.
+struct GradientProbe {
+  Vector axis;
+  double polar, step;
+};
+/// What they found. The normal points to either side.
+struct GradientFit {
+  Vector normal;
+  double slope = 0;  ///< mean |dR / d polar angle|
+  double level = 0;  ///< mean R
+};
+struct GradientSteps {
+  double first, second;  ///< of the first probes, and of those around what they find
+};
+GradientSteps gradient_steps(double polar, double precision);
+/// The 12 directions that a probe asks for, and what it makes of their retro-radiance.
+std::vector<Vector> gradient_directions(const GradientProbe& probe);
+std::optional<GradientFit> fit_gradients(const GradientProbe& probe, std::span<const double> radiance,
+                                         double precision);
+/// Nine directions on three circles about the normal, where one that is wrong by an allowed angle would show: it
+/// changes R by about that angle times the slope, or, on a circle much brighter or darker than the probes, times that
+/// contrast.
+std::vector<Vector> symmetry_directions(const Vector& normal, double polar);
+bool is_symmetric(const GradientFit& fit, double polar, std::span<const double> radiance, double precision);
+
 /// Gradients of retro-radiance at three probes `polar` radians around `start`, and again around what they find; then
 /// nine calls that verify rotational symmetry. 33 calls. For isotropic reflectances that are smooth there.
 std::optional<Vector> normal_by_gradients(Prober& prober, const Vector& start, double first_polar, double polar);

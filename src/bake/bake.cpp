@@ -5,15 +5,18 @@
 #include <chrono>
 #include <cmath>
 
+#include "analysis/hidden_frames.h"
 #include "analysis/lobe_fit.h"
 #include "bake/normals.h"
 #include "bake/passes.h"
 #include "bake/project.h"
 #include "bake/sample.h"
 #include "bake/surface_cells.h"
+#include "bake/tangents.h"
 #include "bake/texel_grid.h"
 #include "bake/verdict.h"
 #include "base/parallel.h"
+#include "shader/shading_frames.h"
 
 namespace redmap {
 namespace {
@@ -71,8 +74,32 @@ ReductionMap describe(const Surface& surface, const Shader& shader, const BakeOp
   return map;
 }
 
+void store_frames(const RevealedShader& shader, ReductionMap& map) {
+  map.hides_frames = true;
+  const std::vector<Frame> frames = shader.frames(basis_points(map));
+  for (std::size_t b = 0; b < frames.size(); ++b)
+    map.basis[b].frame_z = frames[b].z, map.basis[b].frame_x = frames[b].x;
+}
+
+/// Most points across a texel at which normals are probed for: each takes 33 calls or more.
+constexpr int kProbedSubSamples = 2;
+
+/// Normals and tangents of shaders that have their own.
+void build_frames(const TexelGrid& grid, const Shader& shader, const BakeOptions& options, const BaseLevel& weights,
+                  BakeMonitor& monitor, ReductionMap& map) {
+  if (shader.info().perturbs_normals) {
+    const int sub_samples = map.hides_frames ? std::min(kProbedSubSamples, options.sub_samples) : options.sub_samples;
+    map.normals = NormalPyramid(sample_normals(grid, shader, sub_samples, monitor), map.weights);
+  }
+  if (shader.info().turns_tangents) {
+    BaseLevel tangents = sample_tangents(grid, shader, options, monitor);
+    tangents.coverage = weights.coverage;
+    map.tangents = WeightPyramid(tangents);
+  }
+}
+
 void fit_lobes(const Shader& shader, ReductionMap& map) {
-  const std::unique_ptr<BoundPatterns> basis = shader.bind(basis_points(map));
+  const std::unique_ptr<BoundPatterns> basis = bind_in_frames(shader, basis_points(map), basis_frames(map));
   map.lobes.resize(map.basis.size());
   parallel_for(map.lobes.size(), [&](std::size_t b) { map.lobes[b] = fit_lobes(*basis, b); });
 }
@@ -83,7 +110,7 @@ ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOption
   return bake(surface, shader, options, *make_cpu_passes(), report);
 }
 
-ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOptions& options, TexelPasses& passes,
+ReductionMap bake(const Surface& surface, const Shader& own, const BakeOptions& options, TexelPasses& wanted_passes,
                   BakeReport* report) {
   validate(options);
   BakeReport ours;
@@ -92,6 +119,15 @@ ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOption
   BakeMonitor monitor(options.progress);
 
   const TexelGrid grid(surface, options.size);
+  const HiddenFrames hidden = find_hidden_frames(own, some_points(grid));
+  const RevealedShader revealed(own, hidden);
+  const Shader& shader = hidden.any() ? static_cast<const Shader&>(revealed) : own;
+  stopwatch.lap("frames");
+
+  // What is revealed runs on the CPU.
+  const std::unique_ptr<TexelPasses> cpu_passes = make_cpu_passes();
+  TexelPasses& passes = hidden.any() ? *cpu_passes : wanted_passes;
+
   const BakeJob job{grid, shader, options, monitor};
   SampledTexels sampled = sample_texels(job, passes);
   ours.distinct_reflectances = sampled.unique.distinct();
@@ -105,15 +141,15 @@ ReductionMap bake(const Surface& surface, const Shader& shader, const BakeOption
   stopwatch.lap("project");
 
   ReductionMap map = describe(surface, shader, options, basis);
-  fit_lobes(shader, map);
+  if (hidden.any()) store_frames(revealed, map);
+  fit_lobes(own, map);
   map.weights = passes.build_pyramid(weights);
   map.clusters = build_clusters(surface, map.weights);
   stopwatch.lap("build");
 
-  if (shader.info().perturbs_normals) {
-    map.normals = NormalPyramid(sample_normals(grid, shader, options, monitor), map.weights);
-    stopwatch.lap("normals");
-  }
+  build_frames(grid, shader, options, weights, monitor, map);
+  ours.probed_normals = revealed.tally().places, ours.normals_not_found = revealed.tally().not_found;
+  stopwatch.lap("normals");
 
   judge(grid, shader, sampled, map);
   stopwatch.lap("judge");

@@ -47,6 +47,9 @@ struct BakeReport {
   std::size_t refined_texels = 0;    ///< of these, sub-sampled because their neighbours differ
   double distinct_reflectances = 0;  ///< estimated where there are more than are kept
   int outlier_basis = 0;             ///< basis reflectances that only sub-samples brought to light
+  /// Where the shader hides its shading normals: places probed for them, and those where none was found, which keep the
+  /// interpolated one.
+  std::uint64_t probed_normals = 0, normals_not_found = 0;
 };
 
 /// The bake was stopped through its progress callback. Nothing is left behind.

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "map/normal_moments.h"
 #include "map/slope_moments.h"
+#include "shader/shading_frames.h"
 
 namespace redmap {
 namespace {
@@ -31,6 +32,20 @@ Pyramid<float> build_averaged(const Surface& surface, int size, int channels, co
   return Pyramid<float>(base);
 }
 
+/// From the shading frames to those along the interpolated tangents: what is averaged must be in one frame.
+void turn_roughness(const SurfacePoints& points, const BoundPatterns& patterns, Materials& materials) {
+  Planes<3> normals, tangents;
+  if (!patterns.shading_normals(normals)) normals = points.normal;
+  patterns.shading_tangents(tangents);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 turn = tangent_turn(normals.get(i), points.tangent.get(i), tangents.get(i));
+    const Vec3 own = materials.roughness.get(i);  // xx, xy, yy
+    const float cc = turn.x * turn.x, ss = turn.y * turn.y, cs = turn.x * turn.y;
+    materials.roughness.set(i, {cc * own.x - 2 * cs * own.y + ss * own.z, cs * (own.x - own.z) + (cc - ss) * own.y,
+                                ss * own.x + 2 * cs * own.y + cc * own.z});
+  }
+}
+
 Pyramid<float> build_normal_distributions(const Surface& surface, const Shader& shader, int size) {
   std::vector<Planes<3>> slots(pipeline_slots());
   const auto evaluate = [&](const SurfacePoints& points, std::span<const std::size_t>, std::size_t slot, float* out) {
@@ -49,7 +64,9 @@ Pyramid<float> build_parameter_pyramid(const Surface& surface, const Shader& sha
     throw Error("parameters: shader \"{}\" declares no material(): expected one for this baseline", shader.info().name);
   std::vector<Materials> slots(pipeline_slots());
   const auto evaluate = [&](const SurfacePoints& points, std::span<const std::size_t>, std::size_t slot, float* out) {
-    shader.bind(points)->materials(slots[slot]);
+    const auto patterns = shader.bind(points);
+    patterns->materials(slots[slot]);
+    if (shader.info().turns_tangents) turn_roughness(points, *patterns, slots[slot]);
     for (std::size_t i = 0; i < points.size(); ++i) parameter_channels(slots[slot], i, out + i * Channels::kCount);
   };
   return build_averaged(surface, size, Channels::kCount, evaluate, [](const float* a, const float* b) {

@@ -78,8 +78,7 @@ float threshold_at(std::size_t texel, int width) {
 
 }  // namespace
 
-BaseLevel sample_normals(const TexelGrid& grid, const Shader& shader, const BakeOptions& options,
-                         BakeMonitor& monitor) {
+BaseLevel sample_normals(const TexelGrid& grid, const Shader& shader, int sub_samples, BakeMonitor& monitor) {
   struct Slot {
     Planes<3> normals;
     std::vector<Vec2> tilts;
@@ -99,8 +98,7 @@ BaseLevel sample_normals(const TexelGrid& grid, const Shader& shader, const Bake
       for (std::size_t i = begin; i < end; ++i) out = std::copy(chosen.begin(), chosen.end(), out);
     }
   };
-  average_texels(grid, std::vector<std::uint8_t>(grid.texels(), 1), options.sub_samples, evaluate, nullptr, monitor,
-                 moments);
+  average_texels(grid, std::vector<std::uint8_t>(grid.texels(), 1), sub_samples, evaluate, nullptr, monitor, moments);
   return moments;
 }
 

@@ -8,8 +8,8 @@
 namespace redmap {
 
 /// Means of x, y, x^2, x y and y^2 of the shading normals of every texel, in the interpolated frame: what
-/// NormalPyramid is built from. Taken over the sub-samples, but where two kinds of normals meet in a texel it has one
-/// of them: their average would blur a highlight. Throws BakeInterrupted.
-BaseLevel sample_normals(const TexelGrid& grid, const Shader& shader, const BakeOptions& options, BakeMonitor& monitor);
+/// NormalPyramid is built from. Taken over `sub_samples`^2 points, but where two kinds of normals meet in a texel it
+/// has one of them: their average would blur a highlight. Throws BakeInterrupted.
+BaseLevel sample_normals(const TexelGrid& grid, const Shader& shader, int sub_samples, BakeMonitor& monitor);
 
 }  // namespace redmap

@@ -14,6 +14,10 @@ namespace {
 constexpr std::size_t kScaleTexels = 16384;
 constexpr std::uint64_t kScaleSeed = 5;
 
+/// Places that show whether a shader hides its shading frames, and how often to look for one.
+constexpr std::size_t kSomePoints = 512, kMostTries = 4096;
+constexpr std::uint64_t kPlaceSeed = 23;
+
 const Vec2 kCentre[] = {{0.5f, 0.5f}};
 
 /// What one tile in flight needs.
@@ -91,6 +95,21 @@ std::string find_problem(const Shader& shader, const SurfacePoints& points, cons
       "bake: shader \"{}\": expected radiance, transmittance and emission to be numbers below {:.0e}, found another at "
       "position ({:g}, {:g}, {:g}) in object space",
       shader.info().name, kUnsoundValue, p.x, p.y, p.z);
+}
+
+SurfacePoints some_points(const TexelGrid& grid) {
+  std::vector<ReflectancePlace> places;
+  TexelPoints found;
+  std::vector<std::uint8_t> wanted;
+  for (std::size_t i = 0; i < kMostTries && places.size() < kSomePoints; ++i) {
+    Random random(hash64(kPlaceSeed, i));
+    const TexelRegion region = grid.tile(random.below(static_cast<std::uint32_t>(grid.tiles())));
+    wanted.assign(static_cast<std::size_t>(region.width) * region.height, 0);
+    wanted[random.below(static_cast<std::uint32_t>(wanted.size()))] = 1;
+    grid.surface().rasterize(grid.extent(), region, kCentre, wanted, found);
+    if (found.points.size() > 0) places.push_back(place_of(found.points, 0));
+  }
+  return points_at(places);
 }
 
 std::vector<float> estimate_row_scales(const TexelGrid& grid, const Shader& shader, const ReflectanceSampler& sampler,

@@ -32,6 +32,9 @@ inline std::uint32_t texel_id(std::uint64_t key) { return std::max<std::uint32_t
 /// nothing is.
 std::string find_problem(const Shader& shader, const SurfacePoints& points, const SampledReflectances& sampled);
 
+/// Some hundred places all over the surface.
+SurfacePoints some_points(const TexelGrid& grid);
+
 /// Scales that bring every row to unit RMS, from some thousand random texels. Throws Error if none is covered
 /// and on reflectances that are no numbers.
 std::vector<float> estimate_row_scales(const TexelGrid& grid, const Shader& shader, const ReflectanceSampler& sampler,

@@ -118,7 +118,8 @@ void judge(const TexelGrid& grid, const Shader& shader, const SampledTexels& sam
     map.verdict = MapVerdict::kDoesNotReduce;
     map.verdict_reason = fmt::format("{} basis reflectances leave a residual of {:.3f}, over the tolerance of {:.3f}",
                                      map.basis.size(), map.residual, map.tolerance);
-  } else if (shader.info().has_material && !shader.info().emits && !shader.info().perturbs_normals) {
+  } else if (shader.info().has_material && !shader.info().emits && !shader.info().perturbs_normals &&
+             !shader.info().turns_tangents) {
     // Averaged parameters hold no emission, and what normals do to them is not asked here.
     const double difference = one_material_difference(grid, shader, sampled);
     if (difference >= kOneMaterialDifference) return;

@@ -70,4 +70,18 @@ struct SurfacePoints {
   void resize(std::size_t size) { position.resize(size), normal.resize(size), tangent.resize(size), uv.resize(size); }
 };
 
+/// Points at `places`, anything with a position, normal, tangent and uv. Padding repeats the last, since shaders
+/// evaluate it too.
+template <typename Place>
+SurfacePoints points_at(const std::vector<Place>& places) {
+  SurfacePoints points;
+  points.resize(places.size());
+  for (std::size_t i = 0; i < points.position.stride(); ++i) {
+    const Place& place = places[i < places.size() ? i : places.size() - 1];
+    points.position.set(i, place.position), points.normal.set(i, place.normal);
+    points.tangent.set(i, place.tangent), points.uv.set(i, place.uv);
+  }
+  return points;
+}
+
 }  // namespace redmap

@@ -35,6 +35,11 @@ class JsonReader {
     if (!value.is_string()) refuse(key, "a text");
     return value.get<std::string>();
   }
+  bool boolean(const char* key) const {
+    const Json& value = get(key, "true or false");
+    if (!value.is_boolean()) refuse(key, "true or false");
+    return value.get<bool>();
+  }
   double number(const char* key, double lowest, double highest) const {
     const Json& value = get(key, "a number");
     const double number = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();

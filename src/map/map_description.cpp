@@ -9,6 +9,7 @@
 #include "map/certificate_json.h"
 #include "map/json_reader.h"
 #include "map/map_file.h"
+#include "map/tangent_moments.h"
 
 namespace redmap {
 namespace {
@@ -27,6 +28,8 @@ std::vector<BasisPlace> parse_basis(const JsonReader& reader, const std::string&
     const std::vector<float> uv = place.numbers("uv", 2, 2);
     basis.push_back(
         {place.vector("position"), place.unit_vector("normal"), place.unit_vector("tangent"), {uv[0], uv[1]}});
+    if (!entry.contains("frame_z")) continue;
+    basis.back().frame_z = place.unit_vector("frame_z"), basis.back().frame_x = place.unit_vector("frame_x");
   }
   return basis;
 }
@@ -89,9 +92,7 @@ ShaderOrigin parse_origin(const Json& root, const std::string& where) {
   const JsonReader image_reader(images, where + ": shader_origin: images");
   for (const auto& [name, image] : images.items()) {
     const JsonReader entry(image, fmt::format("{}: shader_origin: images: {}", where, name));
-    const Json& is_data = entry.get("is_data", "true or false");
-    if (!is_data.is_boolean()) entry.refuse("is_data", "true or false");
-    origin.images[name] = {entry.text("file"), is_data.get<bool>()};
+    origin.images[name] = {entry.text("file"), entry.boolean("is_data")};
   }
   return origin;
 }
@@ -112,11 +113,13 @@ std::string_view verdict_name(MapVerdict verdict) {
 
 std::string describe_map(const ReductionMap& map) {
   Json basis = Json::array();
-  for (const BasisPlace& p : map.basis)
+  for (const BasisPlace& p : map.basis) {
     basis.push_back({{"position", list(p.position)},
                      {"normal", list(p.normal)},
                      {"tangent", list(p.tangent)},
                      {"uv", {p.uv.x, p.uv.y}}});
+    if (map.hides_frames) basis.back()["frame_z"] = list(p.frame_z), basis.back()["frame_x"] = list(p.frame_x);
+  }
   Json lobes = Json::array();
   for (const LobeModel& model : map.lobes) lobes.push_back(lobe_list(model));
   Json parameters = Json::object();
@@ -133,8 +136,11 @@ std::string describe_map(const ReductionMap& map) {
                    {"verdict_reason", map.verdict_reason},
                    {"wraps_u", map.weights.wraps_u()},
                    {"scales", std::vector<float>(map.weights.scales().begin(), map.weights.scales().end())},
+                   {"hides_frames", map.hides_frames},
                    {"basis", basis},
                    {"lobes", lobes}};
+  if (!map.tangents.empty())
+    description["tangent_scales"] = std::vector<float>(map.tangents.scales().begin(), map.tangents.scales().end());
   if (!map.shader_origin.file.empty()) description["shader_origin"] = describe_origin(map.shader_origin);
   if (map.certificate) description["certificate"] = describe(*map.certificate);
   return description.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -163,14 +169,15 @@ MapDescription parse_map_description(std::string_view json, const std::string& w
   map.residual = static_cast<float>(reader.number("residual", 0, kAnything));
   map.verdict = parse_verdict(reader);
   map.verdict_reason = reader.text("verdict_reason");
+  map.hides_frames = reader.boolean("hides_frames");
   map.basis = parse_basis(reader, where);
   map.lobes = parse_lobes(reader, map.basis.size(), where);
   description.scales = reader.numbers("scales", map.basis.size(), map.basis.size());
   for (float scale : description.scales)
     if (scale < 0) reader.refuse("scales", "numbers from 0 up");
-  const Json& wraps = reader.get("wraps_u", "true or false");
-  if (!wraps.is_boolean()) reader.refuse("wraps_u", "true or false");
-  description.wraps_u = wraps.get<bool>();
+  if (root.contains("tangent_scales"))
+    description.tangent_scales = reader.numbers("tangent_scales", TangentMoments::kCount, TangentMoments::kCount);
+  description.wraps_u = reader.boolean("wraps_u");
   if (root.contains("certificate")) map.certificate = parse_certificate(root["certificate"], where + ": certificate");
   return description;
 }

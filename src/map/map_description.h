@@ -11,8 +11,9 @@ namespace redmap {
 
 /// What a file says beside the texels.
 struct MapDescription {
-  ReductionMap map;           ///< without weights
-  std::vector<float> scales;  ///< of the weights
+  ReductionMap map;                   ///< without weights
+  std::vector<float> scales;          ///< of the weights
+  std::vector<float> tangent_scales;  ///< of the tangents, if there are any
   bool wraps_u = false;
 };
 

@@ -22,6 +22,7 @@
 #include "map/map_description.h"
 #include "map/map_file_clusters.h"
 #include "map/map_file_normals.h"
+#include "map/tangent_moments.h"
 
 namespace redmap {
 namespace {
@@ -32,17 +33,23 @@ constexpr unsigned kTileSize = 64;  ///< what texture systems like best
 constexpr int kMaxWidth = 32768, kMaxHeight = 16384;
 
 /// Parts of the file: the weights, a channel a basis reflectance, and the coverage, which viewers show as a grey
-/// picture. Normals and clusters follow, where there are any.
-enum Part { kWeights, kCoverage, kParts };
-constexpr const char* kPartNames[kParts] = {"weights", "coverage"};
+/// picture. Tangents, normals and clusters follow, in this order, where there are any.
+enum Part { kWeights, kCoverage, kTangents };
+constexpr const char* kPartNames[] = {"weights", "coverage", "tangents"};
+constexpr int kFewestParts = 2, kMostParts = 5;
 
 /// Readers order channels by name, so the names carry the order.
 std::string channel_name(Part part, int channel) {
+  if (part == kTangents) return channel == 0 ? "cosine" : "sine";
   return part == kCoverage ? "Y" : fmt::format("basis{:02}", channel);
 }
-int channel_count(Part part, const WeightPyramid& weights) { return part == kCoverage ? 1 : weights.channels(); }
+int channel_count(Part part, const WeightPyramid& texels) { return part == kCoverage ? 1 : texels.channels(); }
 /// Where channel 0 of a part is in a texel.
 int first_component(Part part) { return part == kCoverage ? 0 : 1; }
+
+const WeightPyramid& texels_of(const ReductionMap& map, Part part) {
+  return part == kTangents ? map.tangents : map.weights;
+}
 
 Imf::Header make_header(const ReductionMap& map, Part part) {
   const Extent extent = map.weights.extent(0);
@@ -53,7 +60,7 @@ Imf::Header make_header(const ReductionMap& map, Part part) {
   header.setTileDescription(Imf::TileDescription(kTileSize, kTileSize, Imf::MIPMAP_LEVELS, Imf::ROUND_DOWN));
   Imf::addWrapmodes(header, map.weights.wraps_u() ? "periodic,clamp" : "clamp,clamp");
   if (part == kWeights) header.insert(kAttribute, Imf::StringAttribute(describe_map(map)));
-  for (int c = 0; c < channel_count(part, map.weights); ++c)
+  for (int c = 0; c < channel_count(part, texels_of(map, part)); ++c)
     header.channels().insert(channel_name(part, c), Imf::Channel(Imf::HALF));
   return header;
 }
@@ -80,15 +87,15 @@ struct Band {
   }
 };
 
-void write_part(Imf::MultiPartOutputFile& file, Part part, const WeightPyramid& weights) {
+void write_part(Imf::MultiPartOutputFile& file, Part part, const WeightPyramid& texels) {
   Imf::TiledOutputPart out(file, part);
-  const int stride = weights.texel_stride();
-  for (int level = 0; level < weights.levels(); ++level)
+  const int stride = texels.texel_stride();
+  for (int level = 0; level < texels.levels(); ++level)
     for (int b = 0; b < out.numYTiles(level); ++b) {
-      Band band(weights.extent(level), b, channel_count(part, weights));
+      Band band(texels.extent(level), b, channel_count(part, texels));
       half* value = band.values.data();
       for (int y = band.first_row; y < band.first_row + band.rows; ++y) {
-        const auto row = weights.row(level, y);
+        const auto row = texels.row(level, y);
         for (int x = 0; x < band.width; ++x)
           for (int c = 0; c < band.channels; ++c)
             // Eleven bits tell 256 values apart: a byte comes back exactly.
@@ -107,17 +114,17 @@ std::uint8_t byte_of(half value, const std::string& where) {
   return static_cast<std::uint8_t>(nearest);
 }
 
-void read_part(Imf::MultiPartInputFile& file, Part part, const std::string& where, WeightPyramid& weights) {
+void read_part(Imf::MultiPartInputFile& file, Part part, const std::string& where, WeightPyramid& texels) {
   Imf::TiledInputPart in(file, part);
-  const int stride = weights.texel_stride();
-  for (int level = 0; level < weights.levels(); ++level)
+  const int stride = texels.texel_stride();
+  for (int level = 0; level < texels.levels(); ++level)
     for (int b = 0; b < in.numYTiles(level); ++b) {
-      Band band(weights.extent(level), b, channel_count(part, weights));
+      Band band(texels.extent(level), b, channel_count(part, texels));
       in.setFrameBuffer(band.frame_buffer(part));
       in.readTiles(0, in.numXTiles(level) - 1, b, b, level);
       const half* value = band.values.data();
       for (int y = band.first_row; y < band.first_row + band.rows; ++y) {
-        const auto row = weights.row(level, y);
+        const auto row = texels.row(level, y);
         for (int x = 0; x < band.width; ++x)
           for (int c = 0; c < band.channels; ++c)
             row[x * stride + first_component(part) + c] = byte_of(*value++, where);
@@ -153,9 +160,29 @@ Extent checked_extent(const Imf::Header& header, const std::string& where) {
   return {static_cast<int>(width), static_cast<int>(height)};
 }
 
+/// The tangents' texels are covered as the weights' are.
+WeightPyramid read_tangents(Imf::MultiPartInputFile& file, const MapDescription& description,
+                            const std::string& where) {
+  const WeightPyramid& weights = description.map.weights;
+  if (description.tangent_scales.size() != TangentMoments::kCount)
+    throw Error("{}: tangent_scales: expected {} numbers beside the part \"tangents\", found {}", where,
+                TangentMoments::kCount, description.tangent_scales.size());
+  WeightPyramid tangents(weights.extent(0), TangentMoments::kCount, weights.wraps_u(), description.tangent_scales);
+  read_part(file, kTangents, where, tangents);
+  for (int level = 0; level < tangents.levels(); ++level)
+    for (int y = 0; y < tangents.extent(level).height; ++y) {
+      const auto from = weights.row(level, y);
+      const auto to = tangents.row(level, y);
+      for (int x = 0; x < tangents.extent(level).width; ++x)
+        to[x * tangents.texel_stride()] = from[x * weights.texel_stride()];
+    }
+  tangents.pad_rows();
+  return tangents;
+}
+
 ReductionMap read_open_file(Imf::MultiPartInputFile& file, const std::string& where) {
-  if (file.parts() < kParts || file.parts() > kParts + 2)
-    throw Error("{}: expected {} to {} parts, found {}", where, int{kParts}, kParts + 2, file.parts());
+  if (file.parts() < kFewestParts || file.parts() > kMostParts)
+    throw Error("{}: expected {} to {} parts, found {}", where, kFewestParts, kMostParts, file.parts());
   const auto* attribute = file.header(kWeights).findTypedAttribute<Imf::StringAttribute>(kAttribute);
   if (!attribute)
     throw Error("{}: expected a reduction map, found a picture without the attribute \"{}\"", where, kAttribute);
@@ -163,8 +190,11 @@ ReductionMap read_open_file(Imf::MultiPartInputFile& file, const std::string& wh
 
   // All is checked before anything large is allocated.
   const Extent extent = checked_extent(file.header(kWeights), where);
-  for (Part part : {kWeights, kCoverage}) {
-    const int channels = part == kCoverage ? 1 : static_cast<int>(description.map.basis.size());
+  std::vector<Part> parts{kWeights, kCoverage};
+  if (file.parts() > kTangents && file.header(kTangents).name() == kPartNames[kTangents]) parts.push_back(kTangents);
+  for (Part part : parts) {
+    const int basis = static_cast<int>(description.map.basis.size());
+    const int channels = part == kCoverage ? 1 : part == kTangents ? TangentMoments::kCount : basis;
     check_header(file.header(part), part, channels, extent, where);
     if (!file.partComplete(part))
       throw Error("{}: part {}: expected all tiles, found a truncated file", where, kPartNames[part]);
@@ -173,7 +203,8 @@ ReductionMap read_open_file(Imf::MultiPartInputFile& file, const std::string& wh
       WeightPyramid(extent, static_cast<int>(description.scales.size()), description.wraps_u, description.scales);
   for (Part part : {kWeights, kCoverage}) read_part(file, part, where, description.map.weights);
   description.map.weights.pad_rows();
-  int next = kParts;
+  if (parts.size() > kTangents) description.map.tangents = read_tangents(file, description, where);
+  int next = static_cast<int>(parts.size());
   if (next < file.parts() && file.header(next).name() == kNormalsPart)
     description.map.normals = read_normals(file, next++, description.map.weights, where);
   if (next < file.parts())
@@ -195,11 +226,13 @@ void write_map(const std::filesystem::path& path, const ReductionMap& map) {
   ExrMemoryStream stream(path.string());
   try {
     std::vector<Imf::Header> headers{make_header(map, kWeights), make_header(map, kCoverage)};
+    if (!map.tangents.empty()) headers.push_back(make_header(map, kTangents));
     if (!map.normals.empty()) headers.push_back(make_normals_header(map.weights));
     if (!map.clusters.empty()) headers.push_back(make_clusters_header(map.clusters, map.weights.extent(0)));
     Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
     for (Part part : {kWeights, kCoverage}) write_part(file, part, map.weights);
-    int next = kParts;
+    if (!map.tangents.empty()) write_part(file, kTangents, map.tangents);
+    int next = map.tangents.empty() ? kTangents : kTangents + 1;
     if (!map.normals.empty()) write_normals(file, next++, map.normals);
     if (!map.clusters.empty()) write_clusters(file, next, map.clusters);
   } catch (const Error&) {

@@ -9,7 +9,7 @@
 namespace redmap {
 
 /// Version of the file's layout; files of another are refused.
-inline constexpr int kMapFormatVersion = 4;
+inline constexpr int kMapFormatVersion = 5;
 
 /// Writes `map`, through a temporary name. The bytes depend on the map alone. Throws Error, also when the disk is full.
 void write_map(const std::filesystem::path& path, const ReductionMap& map);

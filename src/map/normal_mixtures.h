@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/surface_points.h"
+#include "map/tangent_gather.h"
 
 namespace redmap {
 
@@ -16,6 +17,7 @@ struct NormalMixtures {
   // Vectors may be longer than first.back(); what lies beyond is not there.
   LaneVector<float> x, y, xx, xy, yy;      ///< mean and covariance of the normal's x and y
   std::vector<LaneVector<float>> weights;  ///< [basis][distribution]; over a hit they sum to the basis' weight
+  std::vector<GatheredTurns> turns;        ///< of the grain under each hit; empty: the reflectances have none
   bool one_a_hit = false;                  ///< first[i] = i, and all is padded with zeros
 
   std::size_t hits() const { return first.size() - 1; }

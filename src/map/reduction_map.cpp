@@ -1,21 +1,14 @@
 #include "map/reduction_map.h"
 
-#include <algorithm>
-
 namespace redmap {
 
-SurfacePoints basis_points(const ReductionMap& map) {
-  SurfacePoints points;
-  points.resize(map.basis.size());
-  // Shaders evaluate the padding too.
-  for (std::size_t i = 0; i < points.position.stride(); ++i) {
-    const BasisPlace& place = map.basis[std::min(i, map.basis.size() - 1)];
-    points.position.set(i, place.position);
-    points.normal.set(i, place.normal);
-    points.tangent.set(i, place.tangent);
-    points.uv.set(i, place.uv);
-  }
-  return points;
+SurfacePoints basis_points(const ReductionMap& map) { return points_at(map.basis); }
+
+std::vector<Frame> basis_frames(const ReductionMap& map) {
+  std::vector<Frame> frames;
+  if (!map.hides_frames) return frames;
+  for (const BasisPlace& place : map.basis) frames.push_back(make_frame(place.frame_z, place.frame_x));
+  return frames;
 }
 
 }  // namespace redmap

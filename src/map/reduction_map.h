@@ -26,6 +26,9 @@ inline constexpr int kMaxBasis = 16;
 struct BasisPlace {
   Vec3 position, normal, tangent;
   Vec2 uv;
+  /// z and x of the frame it is asked in, in the shader's own: others than (0, 0, 1) and (1, 0, 0) where the shader
+  /// hides its shading frames (docs/shading_normals.md).
+  Vec3 frame_z{0, 0, 1}, frame_x{1, 0, 0};
 };
 
 /// What the bake found out about how well the map can stand in for the shader.
@@ -56,18 +59,24 @@ struct ReductionMap {
   float residual = 0;   ///< reached: the largest residual over all sampled points
   MapVerdict verdict = MapVerdict::kReduces;
   std::string verdict_reason;
+  bool hides_frames = false;  ///< normals or tangents are not the shader's word, but were found by probing it
   std::vector<BasisPlace> basis;
   std::vector<LobeModel> lobes;  ///< of each basis reflectance: for integrals over normals (docs/normals.md)
   WeightPyramid weights;
-  NormalPyramid normals;                   ///< of shading normals; empty where they are the interpolated ones
-  SurfaceClusters clusters;                ///< for footprints that no atlas can serve; empty where the map is one chart
+  NormalPyramid normals;     ///< of shading normals; empty where they are the interpolated ones
+  WeightPyramid tangents;    ///< TangentMoments of shading frames; empty where they are along the interpolated tangents
+  SurfaceClusters clusters;  ///< for footprints that no atlas can serve; empty where the map is one chart
   std::optional<Certificate> certificate;  ///< where it was verified
 };
 
 /// Bytes that its texels take in memory.
-inline std::size_t texel_bytes(const ReductionMap& map) { return map.weights.bytes() + map.normals.bytes(); }
+inline std::size_t texel_bytes(const ReductionMap& map) {
+  return map.weights.bytes() + map.normals.bytes() + map.tangents.bytes();
+}
 
-/// The places of the basis, to bind the shader at; padding repeats the last.
+/// The places of the basis, to bind the shader at (bind_in_frames()); padding repeats the last.
 SurfacePoints basis_points(const ReductionMap& map);
+/// The frames to ask it in there; empty where they are the shader's own.
+std::vector<Frame> basis_frames(const ReductionMap& map);
 
 }  // namespace redmap

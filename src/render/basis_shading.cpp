@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shader/shading_frames.h"
+
 namespace redmap {
 
 namespace {
@@ -50,13 +52,17 @@ NormalMixtures select(const NormalMixtures& mixtures, std::size_t basis, std::sp
   NormalMixtures some = NormalMixtures::one_each(indices.size(), {LaneVector<float>(padded(indices.size()), 0.0f)});
   pick(mixtures.weights[basis], some.weights[0]);
   pick(mixtures.xx, some.xx), pick(mixtures.xy, some.xy), pick(mixtures.yy, some.yy);
+  if (!mixtures.turns.empty())
+    for (std::uint32_t i : indices) some.turns.push_back(mixtures.turns[i]);
   return some;
 }
 
 }  // namespace
 
 BasisShading::BasisShading(const Shader& shader, const ReductionMap& map)
-    : patterns_(shader.bind(basis_points(map))), transmittance_(map.basis.size()), emission_(map.basis.size()) {
+    : patterns_(bind_in_frames(shader, basis_points(map), basis_frames(map))),
+      transmittance_(map.basis.size()),
+      emission_(map.basis.size()) {
   Planes<3> values;
   const auto keep = [&](std::vector<Rgb>& kept) {
     for (std::size_t b = 0; b < kept.size(); ++b) kept[b] = values.rgb(b);
@@ -125,9 +131,12 @@ void BasisShading::spread_radiance(std::size_t basis, const DirectionPairs& pair
                                    std::span<Decision> decisions, RenderCounts& counts) const {
   const float narrowest = lobes_[basis].narrowest * lobes_[basis].narrowest;
   const float begin = kSpreadBegin * kSpreadBegin * narrowest, end = kSpreadEnd * kSpreadEnd * narrowest;
+  // A grain has to be drawn wherever it is.
+  const bool turns = !mixtures.turns.empty() && !lobes_[basis].trusted;
   std::vector<std::uint32_t> hits;
   for (std::uint32_t i = 0; i < pairs.size(); ++i)
-    if (lit[i] && mixtures.xx[i] + mixtures.yy[i] > begin && mixtures.weights[basis][i] > 0) hits.push_back(i);
+    if (lit[i] && mixtures.weights[basis][i] > 0 && (turns || mixtures.xx[i] + mixtures.yy[i] > begin))
+      hits.push_back(i);
   if (hits.empty()) return;
 
   const NormalMixtures some = select(mixtures, basis, hits);
@@ -140,7 +149,7 @@ void BasisShading::spread_radiance(std::size_t basis, const DirectionPairs& pair
   integrate_basis(basis, some_pairs, some, 0, {}, &at_mean, integrated, some_decisions, counts);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     decisions[hits[i]] = std::max(decisions[hits[i]], some_decisions[i]);
-    const float part = std::min(1.0f, (some.xx[i] + some.yy[i] - begin) / (end - begin));
+    const float part = turns ? 1.0f : std::min(1.0f, (some.xx[i] + some.yy[i] - begin) / (end - begin));
     radiance.set(hits[i], at_mean.get(i) * (1 - part) + integrated.get(i) * part);
   }
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "map/tangent_gather.h"
 #include "render/basis_shading.h"
 #include "render/filtered_shading.h"
 #include "render/seam_lookup.h"
@@ -34,15 +35,22 @@ Covariance curvature(const ShadingBatch& batch, std::size_t i) {
   return {scale * (x.x * x.x + y.x * y.x), scale * (x.x * x.y + y.x * y.y), scale * (x.y * x.y + y.y * y.y)};
 }
 
-/// Adds it to all distributions of all hits, which are seen from the side that the hits are.
 void add_curvature(const ShadingBatch& batch, NormalMixtures& mixtures) {
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const Covariance c = curvature(batch, i);
-    for (std::uint32_t k = mixtures.first[i]; k < mixtures.first[i + 1]; ++k) {
-      // Frames of hits from behind have their y and z turned around.
-      if (batch.turned[i]) mixtures.y[k] = -mixtures.y[k], mixtures.xy[k] = -mixtures.xy[k];
+    for (std::uint32_t k = mixtures.first[i]; k < mixtures.first[i + 1]; ++k)
       mixtures.xx[k] += c.xx, mixtures.xy[k] += c.xy, mixtures.yy[k] += c.yy;
-    }
+  }
+}
+
+/// Frames of hits from behind have their y and z turned around: so is what was gathered for them.
+void face_viewer(const ShadingBatch& batch, NormalMixtures& mixtures) {
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    if (!batch.turned[i]) continue;
+    for (std::uint32_t k = mixtures.first[i]; k < mixtures.first[i + 1]; ++k)
+      mixtures.y[k] = -mixtures.y[k], mixtures.xy[k] = -mixtures.xy[k];
+    if (!mixtures.turns.empty())
+      for (Vec2& turn : mixtures.turns[i]) turn.y = -turn.y;
   }
 }
 
@@ -61,6 +69,8 @@ class MapShading : public FilteredShading {
     auto weights = look_up(batch, counts);
     if (!map_->clusters.empty()) blend_clusters(batch, weights, counts);
     NormalMixtures mixtures = NormalMixtures::one_each(batch.size(), std::move(weights));
+    gather_turns(batch, mixtures, counts);
+    face_viewer(batch, mixtures);
     add_curvature(batch, mixtures);
     basis_.shade_around(batch, mixtures, out, counts);
   }
@@ -70,6 +80,13 @@ class MapShading : public FilteredShading {
   }
 
  private:
+  void gather_turns(const ShadingBatch& batch, NormalMixtures& mixtures, RenderCounts& counts) const {
+    if (map_->tangents.empty()) return;
+    mixtures.turns.resize(batch.size());
+    redmap::gather_turns(map_->tangents, batch.footprints, mixtures.turns);
+    counts.lookups += batch.size();
+  }
+
   /// Weights under each footprint: weights[basis][hit].
   std::vector<LaneVector<float>> look_up(const ShadingBatch& batch, RenderCounts& counts) const {
     std::vector<LaneVector<float>> weights(map_->basis.size(), LaneVector<float>(padded(batch.size()), 0.0f));
@@ -90,6 +107,8 @@ class MapShading : public FilteredShading {
     NormalMixtures mixtures = NormalMixtures::none(map_->basis.size());
     map_->normals.gather(batch.footprints, map_->weights, kGatheredTexels, mixtures);
     counts.lookups += batch.size();
+    gather_turns(batch, mixtures, counts);
+    face_viewer(batch, mixtures);
     add_curvature(batch, mixtures);
     basis_.integrate(batch, mixtures, out, counts);
   }

@@ -88,11 +88,17 @@ Vec3 carried_by_pose(const SurfaceHit& hit, bool turned, Vec3 direction) {
 SurfacePoints surface_points(const ShadingBatch& batch) { return points_at_rest(batch.hits, batch.turned, batch.time); }
 
 std::vector<Frame> shading_frames(const ShadingBatch& batch, const BoundPatterns& patterns) {
-  Planes<3> normals;
-  if (!patterns.shading_normals(normals)) return batch.frames;
-  std::vector<Frame> frames(batch.size());
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    frames[i] = make_frame(carried_by_pose(batch.hits[i], batch.turned[i] != 0, normals.get(i)), batch.frames[i].x);
+  Planes<3> normals, tangents;
+  const bool has_normals = patterns.shading_normals(normals), has_tangents = patterns.shading_tangents(tangents);
+  std::vector<Frame> frames = batch.frames;
+  if (!has_normals && !has_tangents) return frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto carried = [&](Vec3 direction) {
+      return carried_by_pose(batch.hits[i], batch.turned[i] != 0, direction);
+    };
+    frames[i] = make_frame(has_normals ? carried(normals.get(i)) : frames[i].z,
+                           has_tangents ? carried(tangents.get(i)) : frames[i].x);
+  }
   return frames;
 }
 

@@ -73,20 +73,41 @@ inline constexpr bool kPerturbsNormals = requires(const Surface& at, const Param
   shading_normal(at, p);
 };
 
+/// Whether a text declares shading_tangent().
+template <typename Surface, typename Parameters>
+inline constexpr bool kTurnsTangents = requires(const Surface& at, const Parameters& p) {
+  shading_tangent(at, p);
+};
+
+template <typename Surface, typename Vector, typename Parameters>
+Vector normal_of(const Surface& at, [[maybe_unused]] const Parameters& p) {
+  if constexpr (kPerturbsNormals<Surface, Parameters>)
+    return shading_normal(at, p);
+  else
+    return at.normal;
+}
+template <typename Surface, typename Vector, typename Parameters>
+Vector tangent_of(const Surface& at, [[maybe_unused]] const Parameters& p) {
+  if constexpr (kTurnsTangents<Surface, Parameters>)
+    return shading_tangent(at, p);
+  else
+    return at.tangent;
+}
+
 /// A black box: what is bound is the place, and directions are rotated from its shading frame to object space.
 template <typename Surface, typename Vector, typename Parameters>
 struct BlackBoxForm {
-  struct PerturbedPlace {
+  struct FramedPlace {
     Surface at;
     Vector normal, tangent;  ///< of the shading frame
   };
-  static constexpr bool kPerturbed = kPerturbsNormals<Surface, Parameters>;
-  using Bound = std::conditional_t<kPerturbed, PerturbedPlace, Surface>;
+  static constexpr bool kFramed = kPerturbsNormals<Surface, Parameters> || kTurnsTangents<Surface, Parameters>;
+  using Bound = std::conditional_t<kFramed, FramedPlace, Surface>;
 
   static Bound bind(const Surface& at, [[maybe_unused]] const Parameters& p) {
-    if constexpr (kPerturbed) {
-      const Vector normal = shading_normal(at, p);
-      const Vector along = at.tangent - normal * dot(normal, at.tangent);
+    if constexpr (kFramed) {
+      const Vector normal = normal_of<Surface, Vector>(at, p), tangent = tangent_of<Surface, Vector>(at, p);
+      const Vector along = tangent - normal * dot(normal, tangent);
       // The little of the other normal counts only where the tangent is the shading normal.
       return {at, normal, normalize(along + at.normal * 1e-6f)};
     } else {
@@ -96,7 +117,7 @@ struct BlackBoxForm {
   static Vector evaluate(const Bound& bound, const Parameters& p, Vector to_light, Vector to_viewer) {
     const Vector bitangent = cross(bound.normal, bound.tangent);
     const auto to_object = [&](Vector v) { return bound.tangent * v.x + bitangent * v.y + bound.normal * v.z; };
-    if constexpr (kPerturbed)
+    if constexpr (kFramed)
       return radiance(bound.at, p, to_object(to_light), to_object(to_viewer));
     else
       return radiance(bound, p, to_object(to_light), to_object(to_viewer));
@@ -179,10 +200,8 @@ class LibraryPatterns final : public BoundPatterns {
       : size_(size), parameters_(parameters), blocks_(padded(size) / kLanes) {}
   Bound& block(std::size_t i) { return blocks_[i]; }
   /// Of eight patterns from `i` on, which must be done for all or for none.
-  void set_shading_normals(std::size_t i, Vector normal) {
-    normals_.resize(size_);
-    Lanes::store(normals_, i, normal);
-  }
+  void set_shading_normals(std::size_t i, Vector normal) { store(normals_, i, normal); }
+  void set_shading_tangents(std::size_t i, Vector tangent) { store(tangents_, i, tangent); }
   std::size_t size() const override { return size_; }
 
   void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
@@ -224,13 +243,19 @@ class LibraryPatterns final : public BoundPatterns {
   }
 
   bool materials(Materials& out) const override { return store_materials<Vector>(blocks_, size_, out); }
-  bool shading_normals(Planes<3>& out) const override {
-    if (normals_.size() == 0) return false;
-    out = normals_;
-    return true;
-  }
+  bool shading_normals(Planes<3>& out) const override { return give(normals_, out); }
+  bool shading_tangents(Planes<3>& out) const override { return give(tangents_, out); }
 
  private:
+  void store(Planes<3>& to, std::size_t i, Vector v) {
+    to.resize(size_);
+    Lanes::store(to, i, v);
+  }
+  static bool give(const Planes<3>& from, Planes<3>& out) {
+    if (from.size() == 0) return false;
+    out = from;
+    return true;
+  }
   /// Radiance of `count` blocks in a row (step 1) or of one block again and again (step 0). The one place where
   /// radiance is compiled: otherwise each loop might contract multiplications and additions in its own way, and the
   /// three functions above would not agree bit for bit.
@@ -253,7 +278,7 @@ class LibraryPatterns final : public BoundPatterns {
   std::size_t size_;
   Parameters parameters_;
   LaneVector<Bound> blocks_;
-  Planes<3> normals_;  ///< of shaders that perturb them
+  Planes<3> normals_, tangents_;  ///< of shaders that declare them
 };
 
 template <typename Form, typename Surface, typename Vector, typename Parameters>
@@ -271,6 +296,8 @@ class LibraryShader final : public Shader {
       bound->block(i / kLanes) = bind_block(at);
       if constexpr (kPerturbsNormals<Surface, Parameters>)
         bound->set_shading_normals(i, shading_normal(at, parameters_));
+      if constexpr (kTurnsTangents<Surface, Parameters>)
+        bound->set_shading_tangents(i, normalize(shading_tangent(at, parameters_)));
     }
     return bound;
   }

@@ -62,6 +62,10 @@ class BoundPatterns {
   /// Shading normals, object space, unit. False, and `out` untouched, if the shader does not say: then they are the
   /// interpolated normals of the places, or whatever a black box hides (analysis/shading_normal.h).
   virtual bool shading_normals([[maybe_unused]] Planes<3>& out) const { return false; }
+  /// What the x of the shading frames leans to, object space, unit: of use where a reflectance is anisotropic and its
+  /// grain turns from place to place. False, and `out` untouched, if the shader does not say: then they are the
+  /// tangents of the places.
+  virtual bool shading_tangents([[maybe_unused]] Planes<3>& out) const { return false; }
 };
 
 /// A picture that a shader samples, declared as `uniform sampler2D wood;  // MEANING`.
@@ -85,6 +89,7 @@ struct ShaderInfo {
   bool has_material = false;            ///< declares material(), for the `parameters` baseline
   bool varies_in_time = false;          ///< its text reads Surface.time: no map can stand in for it
   bool perturbs_normals = false;        ///< declares shading_normal(): BoundPatterns::shading_normals() answers
+  bool turns_tangents = false;          ///< declares shading_tangent(): BoundPatterns::shading_tangents() answers
 };
 
 /// bind() and what it returns throw Error only for shaders of the user's own, which may fail while they run.

@@ -234,6 +234,7 @@ ShaderInfo parse_shader_text(std::string_view text, std::span<const std::string>
   info.emits = defines(tokens, "vec3", "emission", "Pattern");
   info.has_material = defines(tokens, "Material", "material", "Pattern");
   info.perturbs_normals = defines(tokens, "vec3", "shading_normal", "Surface");
+  info.turns_tangents = defines(tokens, "vec3", "shading_tangent", "Surface");
   info.varies_in_time = reads_time(tokens);
   return info;
 }

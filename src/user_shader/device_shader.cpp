@@ -26,8 +26,8 @@ vec3 redmap_to_object(RedmapPlace redmap_m, vec3 redmap_v) {
          redmap_m.normal * redmap_v.z;
 }
 // The little of the other normal counts only where the tangent is the shading normal.
-RedmapPlace redmap_framed(Surface redmap_at, vec3 redmap_n) {
-  vec3 redmap_along = redmap_at.tangent - redmap_n * dot(redmap_n, redmap_at.tangent);
+RedmapPlace redmap_framed(Surface redmap_at, vec3 redmap_n, vec3 redmap_t) {
+  vec3 redmap_along = redmap_t - redmap_n * dot(redmap_n, redmap_t);
   return RedmapPlace(redmap_at, redmap_n, normalize(redmap_along + redmap_at.normal * 1e-6));
 }
 )";
@@ -99,6 +99,7 @@ std::string shader_text_head(const ShaderInfo& info) {
   lines += fmt::format("#define REDMAP_BOUND {}\n", info.black_box ? "RedmapPlace" : "Pattern");
   if (info.black_box) lines += "#define REDMAP_BLACK_BOX\n";
   if (info.perturbs_normals) lines += "#define REDMAP_PERTURBS\n";
+  if (info.turns_tangents) lines += fmt::format("#define REDMAP_TURNS {}u\n", info.perturbs_normals ? 3 : 0);
   if (info.transmits) lines += "#define REDMAP_TRANSMITS\n";
   if (info.emits) lines += "#define REDMAP_EMITS\n";
   if (info.has_material) lines += "#define REDMAP_HAS_MATERIAL\n";

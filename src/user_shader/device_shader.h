@@ -24,8 +24,8 @@ struct DeviceShader {
 std::optional<DeviceShader> device_shader(const Shader& shader);
 
 /// What stands between `#version` and the shader's text: the prelude, REDMAP_BOUND (the type of what a shader is bound
-/// to at a place), and REDMAP_BLACK_BOX, REDMAP_PERTURBS, REDMAP_TRANSMITS, REDMAP_EMITS, REDMAP_HAS_MATERIAL where
-/// they apply. Black boxes are bound to a RedmapPlace.
+/// to at a place), and REDMAP_BLACK_BOX, REDMAP_PERTURBS, REDMAP_TURNS (the row of a stage that tangents go to),
+/// REDMAP_TRANSMITS, REDMAP_EMITS, REDMAP_HAS_MATERIAL where they apply. Black boxes are bound to a RedmapPlace.
 std::string shader_text_head(const ShaderInfo& info);
 /// The shader's text with its images at bindings `first_binding`, ... of set 0.
 std::string shader_text_body(const ShaderSources& sources, const ShaderInfo& info, int first_binding);

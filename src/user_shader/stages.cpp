@@ -68,18 +68,25 @@ layout(std430, binding = 2) buffer RedmapPatterns { REDMAP_BOUND redmap_patterns
 
 void redmap_bind(uint redmap_i) {
   Surface redmap_at = redmap_place(redmap_i);
+  vec3 redmap_n = redmap_at.normal;
+  vec3 redmap_t = redmap_at.tangent;
 #ifdef REDMAP_PERTURBS
-  vec3 redmap_n = shading_normal(redmap_at, redmap_parameters);
+  redmap_n = shading_normal(redmap_at, redmap_parameters);
   if (!redmap_ended(1u)) return;
   redmap_store3(0u, redmap_i, redmap_n);
+#endif
+#ifdef REDMAP_TURNS
+  redmap_t = normalize(shading_tangent(redmap_at, redmap_parameters));
+  if (!redmap_ended(6u)) return;
+  redmap_store3(REDMAP_TURNS, redmap_i, redmap_t);
 #endif
 #ifndef REDMAP_BLACK_BOX
   redmap_patterns[redmap_i] = pattern(redmap_at, redmap_parameters);
   redmap_ended(0u);
-#elif defined(REDMAP_PERTURBS)
-  redmap_patterns[redmap_i] = redmap_framed(redmap_at, redmap_n);
+#elif defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
+  redmap_patterns[redmap_i] = redmap_framed(redmap_at, redmap_n, redmap_t);
 #else
-  redmap_patterns[redmap_i] = RedmapPlace(redmap_at, redmap_at.normal, redmap_at.tangent);
+  redmap_patterns[redmap_i] = RedmapPlace(redmap_at, redmap_n, redmap_t);
 #endif
 }
 
@@ -140,8 +147,8 @@ void main() {
 }  // namespace
 
 std::string_view status_function(std::uint32_t function) {
-  constexpr std::string_view kNames[kStatusFunctions] = {"pattern",  "shading_normal", "radiance", "transmittance",
-                                                         "emission", "material",       "",         ""};
+  constexpr std::string_view kNames[kStatusFunctions] = {
+      "pattern", "shading_normal", "radiance", "transmittance", "emission", "material", "shading_tangent", ""};
   return kNames[function % kStatusFunctions];
 }
 

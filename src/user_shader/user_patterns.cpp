@@ -26,17 +26,22 @@ class UserPatterns final : public BoundPatterns {
       : shader_(std::move(shader)),
         position_(points.position),
         bytes_(points.size() * shader_->program.pattern_size()),
-        normals_(shader_->info.perturbs_normals ? points.size() : 0) {
+        normals_(shader_->info.perturbs_normals ? points.size() : 0),
+        tangents_(shader_->info.turns_tangents ? points.size() : 0) {
     for_each_batch(points.size(), [&](std::size_t first, std::size_t count) {
       InputRows in{{}, count};
       append_rows(points.position, first, in), append_rows(points.normal, first, in);
       append_rows(points.tangent, first, in), append_rows(points.uv, first, in);
-      const std::vector<float*> out = shader_->info.perturbs_normals ? rows_of(normals_, first) : std::vector<float*>();
+      std::vector<float*> out;
+      for (Planes<3>* declared : {&normals_, &tangents_})
+        if (declared->size() > 0) std::ranges::copy(rows_of(*declared, first), std::back_inserter(out));
       StageCall call;
       call.time = points.time;
       run(Stage::kBind, call, in, first, count, out);
-      if (out.empty()) return;
-      check(first, [&] { require_unit(out, count, "shading_normal"); });
+      check(first, [&] {
+        if (normals_.size() > 0) require_unit(rows_of(normals_, first), count, "shading_normal");
+        if (tangents_.size() > 0) require_unit(rows_of(tangents_, first), count, "shading_tangent");
+      });
     });
   }
 
@@ -99,11 +104,8 @@ class UserPatterns final : public BoundPatterns {
     });
     return true;
   }
-  bool shading_normals(Planes<3>& out) const override {
-    if (!shader_->info.perturbs_normals) return false;
-    out = normals_;
-    return true;
-  }
+  bool shading_normals(Planes<3>& out) const override { return give(normals_, out); }
+  bool shading_tangents(Planes<3>& out) const override { return give(tangents_, out); }
 
  private:
   using Constants = Planes<kConstantRows>;
@@ -111,6 +113,11 @@ class UserPatterns final : public BoundPatterns {
   template <typename Body>
   static void for_each_batch(std::size_t size, const Body& body) {
     for (std::size_t first = 0; first < size; first += kMostPlaces) body(first, std::min(kMostPlaces, size - first));
+  }
+  static bool give(const Planes<3>& from, Planes<3>& out) {
+    if (from.size() == 0) return false;
+    out = from;
+    return true;
   }
   static InputRows directions(const DirectionPairs& pairs, std::size_t first, std::size_t count) {
     InputRows in{{}, count};
@@ -161,7 +168,7 @@ class UserPatterns final : public BoundPatterns {
   std::shared_ptr<const UserShaderParts> shader_;
   Planes<3> position_;
   mutable std::vector<std::byte> bytes_;  ///< written by the constructor alone
-  Planes<3> normals_;
+  Planes<3> normals_, tangents_;          ///< of shaders that declare them
 };
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST(BoundPatterns, OfEveryLibraryShader_HaveTheirFramesNormal_OrReportFailure) 
       found += normals.found[i];
     }
     // Cartoons' ink and anisotropic metal are as bright at the horizon as inside it, which says nothing.
-    if (name == "scratched_metal") continue;
+    if (name == "scratched_metal" || name == "brushed_metal") continue;
     EXPECT_GT(found, 24u) << name;
   }
 }

@@ -50,11 +50,13 @@ TEST(BumpyShader, HasOneBasisWhereItSaysSo) {
   BakeOptions options;
   options.size = 128;
   for (const std::string& bump : bump_names()) {
-    const auto shader = make_bumpy_shader(bump, "phong100", texel_width(*sphere, 128), 0);
+    const char* gloss = go_together(bump, "phong100") ? "phong100" : "ward.1x.4";
+    const auto shader = make_bumpy_shader(bump, gloss, texel_width(*sphere, 128), 0);
     EXPECT_EQ(bake(*sphere, *shader, options).basis.size(), is_single_basis(bump) ? 1u : 2u) << bump;
   }
   EXPECT_THROW(make_bumpy_shader("dents", "phong100", 0.01, 0), Error);
   EXPECT_THROW(make_bumpy_shader("caps", "matte", 0.01, 0), Error);
+  EXPECT_THROW(make_bumpy_shader("grain", "phong100", 0.01, 0), Error);
 }
 
 TEST(BumpyShader, BeingBusyChangesNothing) {

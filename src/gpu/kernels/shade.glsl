@@ -6,8 +6,15 @@ void redmap_bind(uint redmap_b) {
   Surface redmap_at = redmap_basis_place(redmap_b);
 #ifndef REDMAP_BLACK_BOX
   redmap_patterns[redmap_b] = pattern(redmap_at, redmap_parameters);
-#elif defined(REDMAP_PERTURBS)
-  redmap_patterns[redmap_b] = redmap_framed(redmap_at, shading_normal(redmap_at, redmap_parameters));
+#elif defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
+  vec3 redmap_n = redmap_at.normal, redmap_t = redmap_at.tangent;
+#ifdef REDMAP_PERTURBS
+  redmap_n = shading_normal(redmap_at, redmap_parameters);
+#endif
+#ifdef REDMAP_TURNS
+  redmap_t = normalize(shading_tangent(redmap_at, redmap_parameters));
+#endif
+  redmap_patterns[redmap_b] = redmap_framed(redmap_at, redmap_n, redmap_t);
 #else
   redmap_patterns[redmap_b] = RedmapPlace(redmap_at, redmap_at.normal, redmap_at.tangent);
 #endif
@@ -33,6 +40,12 @@ vec3 redmap_original(RedmapHit redmap_hit_) {
 #ifdef REDMAP_PERTURBS
   redmap_n = shading_normal(redmap_at, redmap_parameters);
   redmap_ended(1u);
+#endif
+#ifdef REDMAP_TURNS
+  redmap_t = normalize(shading_tangent(redmap_at, redmap_parameters));
+  redmap_ended(6u);
+#endif
+#if defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
   redmap_t = redmap_perpendicular(redmap_n, redmap_t);
 #endif
   vec3 redmap_sum = vec3(0.0);

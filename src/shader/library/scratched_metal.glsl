@@ -14,7 +14,6 @@ struct Parameters {
 struct Pattern {
   vec3 metal;
   vec2 roughness;
-  vec2 groove;  // direction of the grooves in the shading frame, as cosine and sine
 };
 
 // Both kinds of grooves run around the y axis: long features there, short ones along it.
@@ -27,31 +26,16 @@ vec3 shading_normal(Surface at, Parameters p) {
   return bumped_normal(at.normal, vec3(0.0, fine + deep, 0.0));
 }
 
-Pattern pattern(Surface at, Parameters p) {
-  vec3 normal = shading_normal(at, p);
-  vec3 tangent = at.tangent - normal * dot(normal, at.tangent);
-  vec3 along = around_y(at.position);
-  float c = dot(along, tangent);
-  float s = dot(along, cross(normal, tangent));
-  float scale = inversesqrt(max(c * c + s * s, 1e-12));
-  return Pattern(p.metal, p.roughness, vec2(c, s) * scale);
-}
+vec3 shading_tangent(Surface at, Parameters p) { return around_y(at.position); }
 
-vec3 along_groove(Pattern m, vec3 v) {
-  return vec3(m.groove.x * v.x + m.groove.y * v.y, m.groove.x * v.y - m.groove.y * v.x, v.z);
-}
+Pattern pattern(Surface at, Parameters p) { return Pattern(p.metal, p.roughness); }
 
 vec3 radiance(Pattern m, vec3 to_light, vec3 to_viewer) {
-  vec3 lobe = ggx_anisotropic_lobe(m.metal, m.roughness, along_groove(m, to_light), along_groove(m, to_viewer));
-  return lobe * visible_cosine(to_light, to_viewer);
+  return ggx_anisotropic_lobe(m.metal, m.roughness, to_light, to_viewer) * visible_cosine(to_light, to_viewer);
 }
 
 Material material(Pattern m) {
   Material exported = ggx_material(vec3(0.0), m.metal, 1.0);
-  float along = m.roughness.x * m.roughness.x;
-  float across = m.roughness.y * m.roughness.y;
-  vec2 g = m.groove;
-  exported.roughness = vec3(along * g.x * g.x + across * g.y * g.y, (along - across) * g.x * g.y,
-                            along * g.y * g.y + across * g.x * g.x);
+  exported.roughness = vec3(m.roughness.x * m.roughness.x, 0.0, m.roughness.y * m.roughness.y);
   return exported;
 }
