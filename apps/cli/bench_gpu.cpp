@@ -1,0 +1,112 @@
+// redmap bench gpu: frames on a Vulkan device, how long and how good, and whether they are the CPU's.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/parallel.h"
+#include "commands.h"
+#include "common.h"
+#include "device/device.h"
+#include "gpu/frame_times.h"
+#include "gpu/parity.h"
+#include "machine.h"
+
+namespace redmap::cli {
+
+namespace {
+
+struct BenchGpuOptions {
+  CommonOptions common;
+  std::string device;
+  std::vector<std::string> parts{"rows", "parity"};
+  bench::FrameTimeOptions frames;
+  bench::ParityOptions parity;
+};
+
+std::string method_name(const bench::FrameTimeRow& row) {
+  return std::string(kMethodNames[static_cast<std::size_t>(row.method)]) + (row.draws_one_basis ? " one basis" : "");
+}
+
+nlohmann::json frame_rows(const BenchGpuOptions& options) {
+  nlohmann::json json = nlohmann::json::array();
+  fmt::print("{:<16} {:>6}  {:<14} {:>4} {:>10} {:>8}\n", "shader", "lights", "method", "spp", "ms/frame", "rmse");
+  for (const bench::FrameTimeRow& row : bench::measure_frame_times(options.frames)) {
+    fmt::print("{:<16} {:>6}  {:<14} {:>4} {:>10.2f} {:>8.4f}\n", row.shader, row.lights, method_name(row), row.spp,
+               row.milliseconds_per_frame, row.rmse_interior);
+    json.push_back({{"shader", row.shader},
+                    {"lights", row.lights},
+                    {"method", method_name(row)},
+                    {"spp", row.spp},
+                    {"milliseconds_per_frame", row.milliseconds_per_frame},
+                    {"rmse_interior", row.rmse_interior}});
+  }
+  return json;
+}
+
+nlohmann::json parity_rows(const BenchGpuOptions& options) {
+  nlohmann::json json = nlohmann::json::array();
+  fmt::print("{:<18} {:>8} {:>9} {:>9}\n", "shader", "distance", "rmse", "largest");
+  for (const bench::ParityRow& row : bench::measure_parity(options.parity)) {
+    fmt::print("{:<18} {:>8.1f} {:>9.6f} {:>9.4f}\n", row.shader, row.distance, row.rmse, row.max_error);
+    json.push_back({{"shader", row.shader}, {"distance", row.distance}, {"rmse", row.rmse}});
+  }
+  return json;
+}
+
+void run_bench_gpu(BenchGpuOptions& options) {
+  const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
+  const DeviceInfo device = Device::open(options.device)->info();
+  options.frames.device = options.parity.device = options.device;
+  std::optional<Progress> progress(std::in_place, "measuring");
+  options.frames.progress = options.parity.progress = [&](double part) { progress->update(part); };
+  options.frames.cancelled = options.parity.cancelled = interrupted;
+  nlohmann::json json{
+      {"machine", machine_json()}, {"device", device.name}, {"driver", device.driver}, {"software", device.software}};
+  fmt::print("{}{}\n", device.name, device.software ? ", software Vulkan" : "");
+  for (const std::string& part : options.parts) {
+    json[part] = part == "rows" ? frame_rows(options) : parity_rows(options);
+    stop_if_interrupted();
+  }
+  progress.reset();
+  write_json(options.common.json, json);
+}
+
+}  // namespace
+
+void add_bench_gpu(CLI::App& bench_app) {
+  auto options = std::make_shared<BenchGpuOptions>();
+  CLI::App* sub = bench_app.add_subcommand("gpu", "Frames on a Vulkan device: time, error, and agreement with the CPU");
+  sub->add_option("--parts", options->parts, "What to measure: rows, parity")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"rows", "parity"}))
+      ->capture_default_str();
+  sub->add_option("--shaders", options->frames.shaders, "Library shaders of the rows")
+      ->delimiter(',')
+      ->capture_default_str();
+  sub->add_option("--lights", options->frames.lights, "Numbers of lights of the rows")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  sub->add_option("--width", options->frames.width, "Pixels of a timed frame")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  sub->add_option("--height", options->frames.height, "Pixels of a timed frame")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  sub->add_option("--frames", options->frames.frames, "Frames to take the median of")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  sub->add_option("--parity-object", options->parity.object, "sphere, cylinder, bunny, dragon")->capture_default_str();
+  sub->add_option("--parity-shaders", options->parity.shaders, "Library shaders of the parity (all if not given)")
+      ->delimiter(',');
+  sub->add_option("--models", options->parity.models, "Folder of bunny_10k.obj and dragon_20k.obj")
+      ->capture_default_str();
+  add_device_option(*sub, options->device);
+  add_common_options(*sub, options->common);
+  sub->footer("Example: redmap bench gpu --device 0 --json gpu.json");
+  sub->callback([options] { run_bench_gpu(*options); });
+}
+
+}  // namespace redmap::cli
