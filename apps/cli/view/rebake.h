@@ -1,0 +1,42 @@
+// A scene with other parameters, and its map, made while the old one is still shown.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "map/reduction_map.h"
+#include "scene/scene_file.h"
+
+namespace redmap::cli {
+
+struct RebakedScene {
+  SceneFile file;
+  std::size_t object = 0;
+  std::shared_ptr<const ReductionMap> map;  ///< of that object
+};
+
+/// One at a time: what is asked for last counts.
+class Rebake {
+ public:
+  ~Rebake() { stop(); }
+  /// Loads the scene with `overrides` and bakes object `object`, as large as `size`.
+  void start(const std::string& scene, const std::vector<std::string>& overrides, const std::string& device,
+             std::size_t object, int size);
+  bool is_running() const { return thread_.joinable() && !done_; }
+  /// What was asked for, once it is there. Throws Error where it failed.
+  std::optional<RebakedScene> take();
+
+ private:
+  void stop();
+
+  std::thread thread_;
+  std::atomic<bool> done_ = false, cancelled_ = false;
+  std::optional<RebakedScene> result_;  ///< of the thread, until done_
+  std::string error_;
+};
+
+}  // namespace redmap::cli
