@@ -41,6 +41,9 @@ nlohmann::json bake_json(const ReductionMap& map, const BakeReport& report) {
   json["refined_texels"] = report.refined_texels;
   json["distinct_reflectances"] = report.distinct_reflectances;
   json["outlier_basis"] = report.outlier_basis;
+  json["added_directions"] = report.added_directions;
+  json["held_out_residual"] = report.disagreement;
+  json["held_out_residual_of_table"] = report.disagreement_of_table;
   if (map.hides_frames) json["hides_frames"] = true;
   if (report.probed_normals > 0)
     json["probed_normals"] = report.probed_normals, json["normals_not_found"] = report.normals_not_found;

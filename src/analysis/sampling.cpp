@@ -34,10 +34,10 @@ std::optional<std::size_t> find_unsound_place(const SampledReflectances& sampled
   return first < sampled.places ? std::optional(first) : std::nullopt;
 }
 
-ReflectanceSampler::ReflectanceSampler(const ShaderInfo& shader)
-    : directions_(reflection_samples()), transmits_(shader.transmits), emits_(shader.emits) {}
+ReflectanceSampler::ReflectanceSampler(const ShaderInfo& shader, DirectionPairs directions)
+    : directions_(std::move(directions)), transmits_(shader.transmits), emits_(shader.emits) {}
 
-int ReflectanceSampler::rows() const { return 3 * (kDirectionSamples + (emits_ ? 1 : 0)); }
+int ReflectanceSampler::rows() const { return static_cast<int>(3 * (directions_.size() + 1 + (emits_ ? 1 : 0))); }
 
 void ReflectanceSampler::sample(const BoundPatterns& patterns, SampledReflectances& out) const {
   out.places = patterns.size();
@@ -46,7 +46,7 @@ void ReflectanceSampler::sample(const BoundPatterns& patterns, SampledReflectanc
   patterns.radiance_all(directions_, out.values);
   out.values.resize(out.rows * out.stride);
 
-  const int transmittance_row = 3 * kReflectionSamples;
+  const int transmittance_row = static_cast<int>(3 * directions_.size());
   std::fill_n(out.row(transmittance_row), 3 * out.stride, 0.0f);
   Planes<3> rgb;
   if (transmits_) {

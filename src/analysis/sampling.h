@@ -29,10 +29,10 @@ std::optional<std::size_t> find_unsound_place(const SampledReflectances& sampled
 /// not transmit), then of the emission if the shader emits.
 class ReflectanceSampler {
  public:
-  explicit ReflectanceSampler(const ShaderInfo& shader);
-  /// Numbers a place: 3 * kDirectionSamples, and 3 more if the shader emits.
+  /// `directions`: of the reflection samples.
+  explicit ReflectanceSampler(const ShaderInfo& shader, DirectionPairs directions = reflection_samples());
+  /// Numbers a place: 3 a direction, 3 of the transmittance, and 3 more if the shader emits.
   int rows() const;
-  /// Of the reflection samples.
   const DirectionPairs& directions() const { return directions_; }
   /// Safe to call from several threads, each with its own `out`.
   void sample(const BoundPatterns& patterns, SampledReflectances& out) const;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "analysis/held_out.h"
 #include "analysis/hidden_frames.h"
 #include "analysis/lobe_fit.h"
 #include "bake/normals.h"
@@ -57,6 +58,12 @@ std::uint64_t peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// The paper has its own table and no other.
+DirectionChoice directions_for(const Shader& shader, const SurfacePoints& points, const BakeOptions& options) {
+  if (options.selection == BasisSelection::kPaper || points.size() == 0) return {reflection_samples()};
+  return choose_directions(*shader.bind(points), options.tolerance, options.max_basis);
 }
 
 ReductionMap describe(const Surface& surface, const Shader& shader, const BakeOptions& options,
@@ -119,16 +126,20 @@ ReductionMap bake(const Surface& surface, const Shader& own, const BakeOptions& 
   BakeMonitor monitor(options.progress);
 
   const TexelGrid grid(surface, options.size);
-  const HiddenFrames hidden = find_hidden_frames(own, some_points(grid));
+  const SurfacePoints some = some_points(grid);
+  const HiddenFrames hidden = find_hidden_frames(own, some);
   const RevealedShader revealed(own, hidden);
   const Shader& shader = hidden.any() ? static_cast<const Shader&>(revealed) : own;
-  stopwatch.lap("frames");
+  const DirectionChoice directions = directions_for(shader, some, options);
+  ours.added_directions = directions.added;
+  ours.disagreement_of_table = directions.disagreement_of_table, ours.disagreement = directions.disagreement;
+  stopwatch.lap("probe");
 
   // What is revealed runs on the CPU.
   const std::unique_ptr<TexelPasses> cpu_passes = make_cpu_passes();
   TexelPasses& passes = hidden.any() ? *cpu_passes : wanted_passes;
 
-  const BakeJob job{grid, shader, options, monitor};
+  const BakeJob job{grid, shader, options, directions.directions, monitor};
   SampledTexels sampled = sample_texels(job, passes);
   ours.distinct_reflectances = sampled.unique.distinct();
   stopwatch.lap("sample");

@@ -47,6 +47,10 @@ struct BakeReport {
   std::size_t refined_texels = 0;    ///< of these, sub-sampled because their neighbours differ
   double distinct_reflectances = 0;  ///< estimated where there are more than are kept
   int outlier_basis = 0;             ///< basis reflectances that only sub-samples brought to light
+  /// Directions beside the paper's that it took for the basis to hold in all, and the largest residual in directions
+  /// that were held out, without and with these (analysis/held_out.h).
+  int added_directions = 0;
+  float disagreement_of_table = 0, disagreement = 0;
   /// Where the shader hides its shading normals: places probed for them, and those where none was found, which keep the
   /// interpolated one.
   std::uint64_t probed_normals = 0, normals_not_found = 0;

@@ -22,6 +22,7 @@ struct BakeJob {
   const TexelGrid& grid;
   const Shader& shader;
   const BakeOptions& options;
+  const DirectionPairs& directions;
   BakeMonitor& monitor;
 };
 

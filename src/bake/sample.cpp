@@ -169,7 +169,7 @@ void sample_on_cpu(const BakeJob& job, SampledTexels& sampled) {
 
 SampledTexels sample_texels(const BakeJob& job, TexelPasses& passes) {
   job.monitor.begin("scale", 0.05f);
-  const ReflectanceSampler sampler(job.shader.info());
+  const ReflectanceSampler sampler(job.shader.info(), job.directions);
   const std::vector<float> scales = estimate_row_scales(job.grid, job.shader, sampler, job.monitor);
   SampledTexels result{sampler, scales, ReflectanceKeys(scales), UniqueReflectances(sampler.rows(), kMaxUnique),
                        std::vector<std::uint32_t>(job.grid.texels())};

@@ -70,7 +70,7 @@ struct Difference {
 
 /// What one averaged material per block gets wrong, over the reflection samples.
 void add_difference(const Averages& averages, const SampledTexels& sampled, Difference& sum) {
-  const DirectionPairs directions = reflection_samples();
+  const DirectionPairs& directions = sampled.sampler.directions();
   const int rows = sampled.sampler.rows();
   Materials materials;
   materials.resize(directions.size());
@@ -83,7 +83,7 @@ void add_difference(const Averages& averages, const SampledTexels& sampled, Diff
       channels[c] = part * averages.parameters[b * ParameterChannels::kCount + c];
     for (std::size_t d = 0; d < directions.size(); ++d) set_material(channels.data(), d, materials);
     material_radiance_each(materials, directions, radiance);
-    for (int r = 0; r < 3 * kReflectionSamples; ++r) {
+    for (int r = 0; r < static_cast<int>(3 * directions.size()); ++r) {
       const double mixture = sampled.row_scales[r] * part * averages.reflectance[b * rows + r];
       const double material = sampled.row_scales[r] * radiance[r % 3][r / 3];
       sum.square += (material - mixture) * (material - mixture);

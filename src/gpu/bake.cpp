@@ -243,7 +243,7 @@ void DevicePasses::average_batch(const BakeJob& job, std::span<const std::size_t
   BakeCall call = shared;
   call.count = static_cast<std::uint32_t>(count);
   if (const auto bad = batch.run(call)) {
-    slot.problem = problem_at(job, ReflectanceSampler(job.shader.info()), batch.point(*bad));
+    slot.problem = problem_at(job, ReflectanceSampler(job.shader.info(), job.directions), batch.point(*bad));
     return;
   }
   for (const std::size_t tile : tiles) {
