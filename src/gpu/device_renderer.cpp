@@ -149,7 +149,8 @@ void DeviceRenderer::Impl::make_targets(const Scene& scene) {
   targets->frame.record_upload(commands);
   commands.fill(targets->lists, 0);
   // Cleared, so that they may be read where nothing is ever drawn.
-  commands.begin_target(targets->shadows), commands.end_target();
+  for (int layer = 0; layer < std::max(targets->shadow_layers, 1); ++layer)
+    commands.begin_target(targets->shadows, layer), commands.end_target();
   commands.begin_target(targets->seen), commands.end_target();
   for (DeviceObject& object : objects) object.attach(memory, commands);
   commands.run(kTimeout);
@@ -219,6 +220,11 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scen
     if (i >= maps.size() || !maps[i])
       throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
     require_map_of(object, *maps[i]);
+    if (maps[i]->hides_frames || !maps[i]->tangents.empty())
+      throw Error(
+          "object '{}': expected a map in the shader's own shading frames, found one whose frames were found by "
+          "probing: render it without --device",
+          object.name);
     if (maps[i]->hides_frames || !maps[i]->tangents.empty())
       throw Error("object '{}': expected a map without turning grains and hidden frames: render it without --device",
                   object.name);

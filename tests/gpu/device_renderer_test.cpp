@@ -1,0 +1,209 @@
+// Pictures known without rendering them, agreement with the CPU where lights and objects are several, and what a device
+// does not take.
+#include "gpu/device_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "bake/bake.h"
+#include "base/error.h"
+#include "base/temporary_folder.h"
+#include "metrics/compare.h"
+#include "render/renderer.h"
+#include "user_shader/user_shader.h"
+
+namespace redmap {
+namespace {
+
+[[maybe_unused]] const int kLayerAskedFor = setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 0);
+
+using Maps = std::vector<std::shared_ptr<const ReductionMap>>;
+
+Object make_ball(const std::shared_ptr<const Shader>& shader, Vec3 translate = {}) {
+  Object ball;
+  ball.name = "ball";
+  ball.surface = make_sphere(1);
+  ball.shader = shader;
+  ball.transform.translate = translate;
+  return ball;
+}
+
+/// A ball of radius 1 at the origin seen from +z, without lights.
+Scene ball_scene(const std::shared_ptr<const Shader>& shader, int pixels = 48) {
+  Scene scene;
+  scene.objects.push_back(make_ball(shader));
+  scene.camera.width = scene.camera.height = pixels;
+  return scene;
+}
+
+Light sun(Vec3 to_light, bool shadows) {
+  Light light;
+  light.type = Light::Type::kDirectional;
+  light.to_light = normalized(to_light);
+  light.shadows = shadows;
+  return light;
+}
+
+Light lamp(Vec3 position, float intensity) {
+  Light light;
+  light.position = position;
+  light.intensity = Rgb{1, 1, 1} * intensity;
+  return light;
+}
+
+Image on_device(const Scene& scene, const DeviceRenderOptions& options, const Maps& maps, int frame = 1) {
+  DeviceRenderer renderer(Device::open(), scene, options, maps);
+  renderer.render(scene, frame);
+  return renderer.picture();
+}
+
+DeviceRenderOptions by(Method method, int spp = 0) {
+  DeviceRenderOptions options;
+  options.method = method, options.spp = spp;
+  return options;
+}
+
+std::shared_ptr<const ReductionMap> baked(const Object& object, int size) {
+  BakeOptions options;
+  options.size = size;
+  return std::make_shared<const ReductionMap>(bake(*object.surface, *object.shader, options));
+}
+
+TEST(DeviceRenderer, WhiteBallUnderASun_IsCosineOverPi) {
+  Scene scene = ball_scene(make_library_shader("white"), 65);
+  scene.camera.position = {0, 0, 1000};
+  scene.camera.vertical_fov_degrees = 0.2f;
+  scene.lights = {sun({0, 0, 1}, true)};
+  const Image image = on_device(scene, by(Method::kOriginal, 1), {});
+  const double brightest = image.rgb(32, 32).r;
+  // Pixels across the middle: x = sin, the cosine follows.
+  const double pixel = 2 * 1000 * std::tan(0.1 * kPi / 180) / 65;
+  for (int x = 16; x < 50; x += 3) {
+    const double sine = (x - 32) * pixel;
+    EXPECT_NEAR(image.rgb(x, 32).g, brightest * std::sqrt(std::max(0.0, 1 - sine * sine)), 2e-3) << x;
+  }
+  EXPECT_EQ(image.rgb(0, 0), (Rgb{0, 0, 0}));
+}
+
+TEST(DeviceRenderer, RegularGrids_AreThoseOfTheCpu) {
+  Scene scene = ball_scene(make_library_shader("noise"));
+  scene.lights = {lamp({3, 3, 5}, 60)};
+  RenderOptions options;
+  options.method = Method::kOriginal, options.spp = 16;
+  const Image expected = Renderer(scene, options, std::vector<ObjectData>(1)).render(scene, 1).image;
+  EXPECT_LT(compare_images(on_device(scene, by(Method::kSupersample, 16), {}), expected).rmse, 2e-3);
+}
+
+TEST(DeviceRenderer, SeveralObjects_ShadowEachOtherAsOnTheCpu) {
+  Scene scene = ball_scene(make_library_shader("checker"), 96);
+  scene.objects.push_back(make_ball(make_library_shader("stone"), {1.2f, 0.9f, 1.6f}));
+  scene.objects.back().transform.scale = 0.4f;
+  scene.background = {0.1f, 0.2f, 0.3f};
+  const Maps maps = {baked(scene.objects[0], 64), baked(scene.objects[1], 64)};
+  // From outside one view does; among the objects it takes six.
+  for (const Light& light : {sun({0.7f, 0.6f, 1}, true), lamp({3, 3, 4}, 50), lamp({1.6f, 1.3f, 2.4f}, 3)}) {
+    scene.lights = {light, lamp({-4, 1, 5}, 20)};
+    RenderOptions options;
+    std::vector<ObjectData> data(2);
+    data[0].map = maps[0], data[1].map = maps[1];
+    const Image expected = Renderer(scene, options, data).render(scene, 1).image;
+    const Comparison difference = compare_images(on_device(scene, by(Method::kMap), maps), expected);
+    // What differs are the edges of shadows and balls.
+    EXPECT_LT(difference.mean_error, 2e-3);
+    EXPECT_LT(difference.rmse, 0.03);
+  }
+}
+
+TEST(DeviceRenderer, FromInsideTheBoxOfAnObject_StillSeesIt) {
+  Scene scene = ball_scene(make_library_shader("checker"));
+  scene.camera.position = {0.95f, 0.9f, 0.95f};  // outside the ball, inside its box
+  scene.lights = {lamp({3, 3, 3}, 30)};
+  RenderOptions options;
+  options.method = Method::kOriginal;
+  const Image expected = Renderer(scene, options, std::vector<ObjectData>(1)).render(scene, 1).image;
+  EXPECT_LT(compare_images(on_device(scene, by(Method::kOriginal), {}), expected).rmse, 0.01);
+}
+
+TEST(DeviceRenderer, OneBasisASample_IsTheMapsPictureOnAverage) {
+  Scene scene = ball_scene(make_library_shader("checker"), 32);
+  scene.lights = {lamp({3, 3, 5}, 60)};
+  const Maps maps = {baked(scene.objects[0], 64)};
+  DeviceRenderOptions options = by(Method::kMap);
+  const Image expected = on_device(scene, options, maps);
+  options.draws_one_basis = true;
+  DeviceRenderer renderer(Device::open(), scene, options, maps);
+  constexpr int kFrames = 64;
+  Image mean(32, 32, 3);
+  double one = 0;
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    renderer.render(scene, frame);
+    const Image image = renderer.picture();
+    if (frame == 1) one = compare_images(image, expected).rmse;
+    for (std::size_t i = 0; i < mean.data.size(); ++i) mean.data[i] += image.data[i] / kFrames;
+  }
+  EXPECT_GT(one, 0.01);
+  // Noise falls with the square root of the frames.
+  EXPECT_LT(compare_images(mean, expected).rmse, one / 5);
+}
+
+TEST(DeviceRenderer, SameFrame_SameBytes_AlsoAfterAnotherSize) {
+  Scene scene = ball_scene(make_library_shader("stone"));
+  scene.lights = {lamp({3, 3, 5}, 60)};
+  const Maps maps = {baked(scene.objects[0], 64)};
+  DeviceRenderer renderer(Device::open(), scene, by(Method::kMap), maps);
+  renderer.render(scene, 1);
+  const Image first = renderer.picture();
+  Scene larger = scene;
+  larger.camera.width = 100, larger.camera.height = 70;
+  renderer.render(larger, 1);
+  EXPECT_EQ(renderer.picture().width, 100);
+  renderer.render(scene, 1);
+  EXPECT_EQ(renderer.picture().data, first.data);
+}
+
+/// What `make` complains of.
+template <typename Make>
+std::string complaint(const Make& make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(DeviceRenderer, WhatItDoesNotTake_IsOneLine) {
+  Scene scene = ball_scene(make_library_shader("white"), 8);
+  const auto refused = [&](const DeviceRenderOptions& options, const Maps& maps) {
+    return complaint([&] { on_device(scene, options, maps); });
+  };
+  EXPECT_NE(refused(by(Method::kPaper), {}).find("method paper: expected"), std::string::npos);
+  EXPECT_NE(refused(by(Method::kSupersample, 7), {}).find("7 samples"), std::string::npos);
+  EXPECT_NE(refused(by(Method::kMap), {nullptr}).find("no reduction map"), std::string::npos);
+  const Maps other = {baked(make_ball(make_library_shader("checker")), 8)};
+  EXPECT_NE(refused(by(Method::kMap), other).find("from shader 'checker', not 'white'"), std::string::npos);
+  scene.lights.assign(65, sun({0, 0, 1}, false));
+  EXPECT_NE(refused(by(Method::kOriginal), {}).find("65 lights: expected at most 64"), std::string::npos);
+  scene.lights.clear();
+  scene.objects[0].shader = make_library_shader("transparent");
+  EXPECT_NE(refused(by(Method::kOriginal), {}).find("lets light through"), std::string::npos);
+}
+
+TEST(DeviceRenderer, ShaderThatDoesNotEnd_IsNamed) {
+  const TemporaryFolder folder;
+  const auto file = folder / "endless.glsl";
+  std::ofstream(file) << "struct Parameters {\n  float a;  // 1 [0, 2]: a\n};\nstruct Pattern { vec3 c; };\n"
+                         "Pattern pattern(Surface at, Parameters p) {\n  float x = p.a;\n"
+                         "  while (x > 0.0) x += 1.0;\n  return Pattern(vec3(x));\n}\n"
+                         "vec3 radiance(Pattern m, vec3 l, vec3 v) { return m.c * l.z; }\n";
+  Scene scene = ball_scene(make_user_shader(file, "endless.glsl"), 8);
+  scene.lights = {sun({0, 0, 1}, false)};
+  const std::string found = complaint([&] { on_device(scene, by(Method::kOriginal), {}); });
+  EXPECT_NE(found.find("shader \"endless.glsl\": pattern(): expected loops that end"), std::string::npos) << found;
+}
+
+}  // namespace
+}  // namespace redmap
