@@ -51,7 +51,8 @@ void Device::Impl::submit(const vk::raii::CommandBuffer& commands, const vk::rai
   const std::uint64_t nanoseconds = std::chrono::nanoseconds(timeout).count();
   if (device.waitForFences(*fence, true, nanoseconds) == vk::Result::eTimeout) {
     stuck = true;
-    throw DeviceTimeout("device \"{}\": expected an end within {} ms, found none", info.name, timeout.count());
+    throw DeviceTimeout(
+        fmt::format("device \"{}\": expected an end within {} ms, found none", info.name, timeout.count()));
   }
   device.resetFences(*fence);
 }

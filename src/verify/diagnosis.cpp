@@ -90,7 +90,7 @@ std::string why_fit(const PixelRenderer& renderer, const ReductionMap& map, std:
         map.basis.size(), map.residual);
   const auto patterns = renderer.scene().objects.front().shader->bind(places_of(renderer, worst));
   constexpr double kOften = 0.5, kAnisotropic = 0.1;
-  if (hidden_normals_of(*patterns) > kOften)
+  if (!map.hides_frames && hidden_normals_of(*patterns) > kOften)
     return "normals were not found: the shader hides normals of its own in its radiance";
   if (const double change = anisotropy_of(*patterns); change > kAnisotropic)
     return fmt::format(

@@ -1,5 +1,6 @@
 #include "verify/stages.h"
 
+#include "analysis/hidden_frames.h"
 #include "verify/weight_probe.h"
 #include "verify/weighted_shading.h"
 
@@ -33,8 +34,10 @@ struct StageMeter::Probe {
 };
 
 StageMeter::StageMeter(const Object& object, std::shared_ptr<const ReductionMap> map, const SurfacePoints& places)
-    : map_(std::move(map)), shader_(object.shader), basis_(std::make_shared<BasisShading>(*shader_, *map_)) {
-  fitted_ = make_weighted_shading(shader_, basis_, projected_weights(*shader_, *map_, row_scales(*shader_, places)));
+    : map_(std::move(map)), own_(object.shader), shader_(own_), basis_(std::make_shared<BasisShading>(*own_, *map_)) {
+  if (map_->hides_frames)
+    shader_ = std::make_shared<RevealedShader>(*own_, HiddenFrames{!map_->normals.empty(), !map_->tangents.empty()});
+  fitted_ = make_weighted_shading(shader_, basis_, projected_weights(*own_, *map_, row_scales(*shader_, places)));
   texels_ = make_weighted_shading(shader_, basis_, texel_weights(map_));
   for (std::size_t first = 0; first < map_->basis.size(); first += kProbedWeights) {
     const std::shared_ptr<const Shader> probe = make_weight_probe(static_cast<int>(first));

@@ -45,7 +45,8 @@ class StageMeter {
                                  std::uint64_t seed) const;
 
   std::shared_ptr<const ReductionMap> map_;
-  std::shared_ptr<const Shader> shader_;
+  std::shared_ptr<const Shader> own_;     ///< the object's
+  std::shared_ptr<const Shader> shader_;  ///< the same, as if it said what it hides of its frames
   std::shared_ptr<const BasisShading> basis_;
   std::unique_ptr<ObjectShading> fitted_, texels_;
   std::vector<Probe> probes_;  ///< three weights each

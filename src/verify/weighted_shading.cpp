@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "shader/shading_frames.h"
+
 namespace redmap {
 
 namespace {
@@ -17,7 +19,8 @@ class WeightedShading : public ObjectShading {
       : shader_(std::move(shader)), basis_(std::move(basis)), weights_(std::move(weights)) {}
 
   void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
-    const bool ask = weights_.asks_shader || shader_->info().perturbs_normals;
+    const ShaderInfo& info = shader_->info();
+    const bool ask = weights_.asks_shader || info.perturbs_normals || info.turns_tangents;
     const auto patterns = ask ? shader_->bind(surface_points(batch)) : nullptr;
     out.decisions.assign(batch.size(), Decision::kMeanNormal);
     basis_->shade(batch, patterns ? shading_frames(batch, *patterns) : batch.frames, weights_.at(batch, patterns.get()),
@@ -46,7 +49,7 @@ std::unique_ptr<ObjectShading> make_weighted_shading(std::shared_ptr<const Shade
 WeightSource projected_weights(const Shader& shader, const ReductionMap& map, std::vector<float> scales) {
   const ReflectanceSampler sampler(shader.info());
   SampledReflectances places;
-  sampler.sample(*shader.bind(basis_points(map)), places);
+  sampler.sample(*bind_in_frames(shader, basis_points(map), basis_frames(map)), places);
   ReflectanceBasis basis(sampler.rows());
   std::vector<float> scaled(sampler.rows());
   for (std::size_t b = 0; b < map.basis.size(); ++b) {
