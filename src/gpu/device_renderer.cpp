@@ -221,11 +221,6 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scen
       throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
     require_map_of(object, *maps[i]);
     if (maps[i]->hides_frames || !maps[i]->tangents.empty())
-      throw Error(
-          "object '{}': expected a map in the shader's own shading frames, found one whose frames were found by "
-          "probing: render it without --device",
-          object.name);
-    if (maps[i]->hides_frames || !maps[i]->tangents.empty())
       throw Error("object '{}': expected a map without turning grains and hidden frames: render it without --device",
                   object.name);
     if (maps[i]->verdict == MapVerdict::kDoesNotReduce)

@@ -72,6 +72,17 @@ std::shared_ptr<const ReductionMap> baked(const Object& object, int size) {
   return std::make_shared<const ReductionMap>(bake(*object.surface, *object.shader, options));
 }
 
+/// What `make` complains of.
+template <typename Make>
+std::string complaint(const Make& make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(DeviceRenderer, WhiteBallUnderASun_IsCosineOverPi) {
   Scene scene = ball_scene(make_library_shader("white"), 65);
   scene.camera.position = {0, 0, 1000};
@@ -95,6 +106,17 @@ TEST(DeviceRenderer, RegularGrids_AreThoseOfTheCpu) {
   options.method = Method::kOriginal, options.spp = 16;
   const Image expected = Renderer(scene, options, std::vector<ObjectData>(1)).render(scene, 1).image;
   EXPECT_LT(compare_images(on_device(scene, by(Method::kSupersample, 16), {}), expected).rmse, 2e-3);
+}
+
+TEST(DeviceRenderer, GrainsThatTurn_AreThoseOfTheCpu) {
+  Scene scene = ball_scene(make_library_shader("scratched_metal"));
+  scene.lights = {lamp({3, 3, 5}, 60)};
+  RenderOptions options;
+  options.method = Method::kOriginal, options.spp = 4;
+  const Image expected = Renderer(scene, options, std::vector<ObjectData>(1)).render(scene, 1).image;
+  EXPECT_LT(compare_images(on_device(scene, by(Method::kOriginal, 4), {}), expected).mean_error, 2e-3);
+  const std::string found = complaint([&] { on_device(scene, by(Method::kMap), {baked(scene.objects[0], 16)}); });
+  EXPECT_NE(found.find("render it without --device"), std::string::npos) << found;
 }
 
 TEST(DeviceRenderer, SeveralObjects_ShadowEachOtherAsOnTheCpu) {
@@ -162,17 +184,6 @@ TEST(DeviceRenderer, SameFrame_SameBytes_AlsoAfterAnotherSize) {
   EXPECT_EQ(renderer.picture().width, 100);
   renderer.render(scene, 1);
   EXPECT_EQ(renderer.picture().data, first.data);
-}
-
-/// What `make` complains of.
-template <typename Make>
-std::string complaint(const Make& make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(DeviceRenderer, WhatItDoesNotTake_IsOneLine) {
