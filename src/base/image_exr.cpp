@@ -11,6 +11,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/exr_header.h"
 #include "base/exr_stream.h"
 #include "base/image_files.h"
 
@@ -83,6 +84,7 @@ std::vector<half> to_half(const Image& image) {
 
 Image read_exr(const std::filesystem::path& path) {
   try {
+    require_sane_exr_header(path);
     Imf::InputFile file(path.c_str());
     return read_open_file(path, file);
   } catch (const Error&) {

@@ -18,6 +18,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/exr_header.h"
 #include "base/exr_stream.h"
 #include "map/map_description.h"
 #include "map/map_file_clusters.h"
@@ -247,6 +248,7 @@ ReductionMap read_map(const std::filesystem::path& path) {
   const std::string where = path.string();
   if (!std::filesystem::exists(path)) throw Error("{}: expected a reduction map, found no such file", where);
   try {
+    require_sane_exr_header(path);
     Imf::MultiPartInputFile file(where.c_str(), Imf::globalThreadCount(), false);
     return read_open_file(file, where);
   } catch (const Error&) {

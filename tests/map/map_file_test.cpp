@@ -19,6 +19,8 @@
 namespace redmap {
 namespace {
 
+using namespace std::string_literals;
+
 ReductionMap random_map(Extent extent, int basis) {
   BaseLevel base(extent, basis, true);
   Random random(4);
@@ -240,6 +242,19 @@ TEST(MapFile, FlippedBytes_AreRefusedOrHarmless) {
     }
   }
   EXPECT_GT(refused, 50);
+}
+
+TEST(MapFile, AttributeThatClaimsMoreThanTheFile_IsRefusedBeforeItIsAllocated) {
+  const TemporaryFolder folder;
+  const auto path = folder / "map.exr";
+  write_map(path, random_map({16, 8}, 2));
+  std::string bytes = read_file(path);
+  const std::size_t type = bytes.find("redmap\0string\0"s);
+  ASSERT_NE(type, std::string::npos);
+  // The high byte of the attribute's size: almost 2 GB.
+  bytes[type + 14 + 3] = 0x7F;
+  write_file(path, bytes);
+  expect_refused(path, "attribute of 21");
 }
 
 TEST(MapFile, ForeignFiles_AreNamedForWhatTheyAre) {
