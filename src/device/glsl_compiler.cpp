@@ -82,7 +82,13 @@ std::vector<std::uint32_t> finished(const std::vector<std::uint32_t>& spirv) {
   spvtools::SpirvTools tools(kEnvironment);
   tools.SetMessageConsumer(hear);
   std::vector<std::uint32_t> result;
-  if (!optimizer.Run(spirv.data(), spirv.size(), &result) || !tools.Validate(result))
+  // Making readable names takes longer than all else.
+  spvtools::ValidatorOptions validation;
+  validation.SetFriendlyNames(false);
+  spvtools::OptimizerOptions optimization;
+  optimization.set_run_validator(false);
+  if (!optimizer.Run(spirv.data(), spirv.size(), &result, optimization) ||
+      !tools.Validate(result.data(), result.size(), validation))
     throw Error("expected a shader that Vulkan takes, found: {}", problem);
   return result;
 }

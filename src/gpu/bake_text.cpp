@@ -83,12 +83,12 @@ struct RedmapSums {
 // A radiance, with the factors of red, green and blue. Afterwards the next function may be called.
 void redmap_add(vec3 redmap_v, vec3 redmap_r0, vec3 redmap_r1, vec3 redmap_g0, vec3 redmap_g1, vec3 redmap_b0,
                 vec3 redmap_b1, inout RedmapSums redmap_s) {
-  redmap_s.first += redmap_r0 * redmap_v.x;
-  redmap_s.last += redmap_r1 * redmap_v.x;
-  redmap_s.first += redmap_g0 * redmap_v.y;
-  redmap_s.last += redmap_g1 * redmap_v.y;
-  redmap_s.first += redmap_b0 * redmap_v.z;
-  redmap_s.last += redmap_b1 * redmap_v.z;
+  redmap_s.first = fma(redmap_r0, vec3(redmap_v.x), redmap_s.first);
+  redmap_s.last = fma(redmap_r1, vec3(redmap_v.x), redmap_s.last);
+  redmap_s.first = fma(redmap_g0, vec3(redmap_v.y), redmap_s.first);
+  redmap_s.last = fma(redmap_g1, vec3(redmap_v.y), redmap_s.last);
+  redmap_s.first = fma(redmap_b0, vec3(redmap_v.z), redmap_s.first);
+  redmap_s.last = fma(redmap_b1, vec3(redmap_v.z), redmap_s.last);
   redmap_s.largest = max(redmap_s.largest, max(abs(redmap_v.x), max(abs(redmap_v.y), abs(redmap_v.z))));
   redmap_s.fine = redmap_s.fine && redmap_ended();
   redmap_rounds = 0u;
@@ -157,9 +157,9 @@ uint redmap_find(uvec2 redmap_k) {
   return 0u;
 }
 
-redmap_real redmap_product(vec3 redmap_a, vec3 redmap_b) {
-  return redmap_real(redmap_a.x) * redmap_real(redmap_b.x) + redmap_real(redmap_a.y) * redmap_real(redmap_b.y) +
-         redmap_real(redmap_a.z) * redmap_real(redmap_b.z);
+// `redmap_sum` and the product of two vectors.
+redmap_real redmap_add_product(redmap_real3 redmap_a, redmap_real3 redmap_b, redmap_real redmap_sum) {
+  return fma(redmap_a.x, redmap_b.x, fma(redmap_a.y, redmap_b.y, fma(redmap_a.z, redmap_b.z, redmap_sum)));
 }
 
 void main() {
@@ -180,6 +180,7 @@ void main() {
     redmap_p.own = redmap_real(0.0);
     redmap_p.of$ = redmap_real(0.0);
     vec3 redmap_v;
+    redmap_real3 redmap_t;
 )";
 constexpr std::string_view kWeightEnd = R"(
     if (!redmap_sound(redmap_s)) atomicMin(redmap_status, redmap_i);
@@ -277,12 +278,12 @@ ShaderSources weight_text(const DeviceShader& shader, const ShaderInfo& info, co
   text += nnls_text(basis.reflectances, has_doubles) + for_each_of_basis(kWeightBegin, size);
   for_each_sample(sampled, info, [&](int row, const std::string& value) {
     text += fmt::format("  redmap_v = {};\n", value) + add_line(sampled, row, "redmap_v");
-    text += fmt::format("  redmap_v *= {};\n",
+    text += fmt::format("  redmap_t = redmap_real3(redmap_v * {});\n",
                         literal({sampled.row_scales[row], sampled.row_scales[row + 1], sampled.row_scales[row + 2]}));
-    text += "  redmap_p.own += redmap_product(redmap_v, redmap_v);\n";
+    text += "  redmap_p.own = redmap_add_product(redmap_t, redmap_t, redmap_p.own);\n";
     for (int b = 0; b < size; ++b) {
       const float* vector = &basis.scaled[static_cast<std::size_t>(b) * rows];
-      text += fmt::format("  redmap_p.of{} += redmap_product(redmap_v, {});\n", b,
+      text += fmt::format("  redmap_p.of{0} = redmap_add_product(redmap_t, redmap_real3({1}), redmap_p.of{0});\n", b,
                           literal({vector[row], vector[row + 1], vector[row + 2]}));
     }
   });

@@ -18,9 +18,11 @@ std::string replaced(std::string text, std::string_view from, const std::string&
 std::string precision(bool has_doubles) {
   return fmt::format(
       "#define redmap_real {}\n"
+      "#define redmap_real3 {}\n"
       "const redmap_real redmap_gradient_tolerance = redmap_real({});\n"
       "const redmap_real redmap_pivot_tolerance = redmap_real({});\n",
-      has_doubles ? "double" : "float", has_doubles ? "1e-10" : "1e-5", has_doubles ? "1e-13" : "1e-5");
+      has_doubles ? "double" : "float", has_doubles ? "dvec3" : "vec3", has_doubles ? "1e-10" : "1e-5",
+      has_doubles ? "1e-13" : "1e-5");
 }
 
 constexpr std::string_view kTypes = R"(

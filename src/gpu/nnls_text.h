@@ -14,9 +14,9 @@ namespace redmap {
 /// place of every $K.
 std::string for_each_of_basis(std::string_view text, int basis);
 
-/// GLSL: redmap_real (double, or float), `RedmapProducts` (own: of a reflectance with itself, of0, of1, ...: with the
-/// basis), `RedmapWeights` (of0, ...), `RedmapWeights redmap_solve(RedmapProducts)` and
-/// `redmap_real redmap_residual_square(RedmapProducts, RedmapWeights)`.
+/// GLSL: redmap_real and redmap_real3 (double, or float), `RedmapProducts` (own: of a reflectance with itself, of0,
+/// of1, ...: with the basis), `RedmapWeights` (of0, ...), `RedmapWeights redmap_solve(RedmapProducts)` and `redmap_real
+/// redmap_residual_square(RedmapProducts, RedmapWeights)`.
 std::string nnls_text(const ReflectanceBasis& basis, bool has_doubles);
 
 }  // namespace redmap
