@@ -10,6 +10,7 @@
 #include "bake/sample.h"
 #include "base/parallel.h"
 #include "gpu/bake_kernels.h"
+#include "gpu/key_weights.h"
 
 namespace redmap {
 namespace {
@@ -19,14 +20,9 @@ const Vec2 kCentre[] = {{0.5f, 0.5f}};
 /// Places whose reflectances are asked for together on the host.
 constexpr std::size_t kVectorBatch = 2048;
 
-ReflectancePlace place_of(const SurfacePoints& point) {
-  return {point.position.get(0), point.normal.get(0), point.tangent.get(0), {point.uv[0][0], point.uv[1][0]}};
-}
-
-void set_place(const ReflectancePlace& place, std::size_t i, SurfacePoints& points) {
-  points.position.set(i, place.position), points.normal.set(i, place.normal), points.tangent.set(i, place.tangent);
-  points.uv.set(i, place.uv);
-}
+/// Up to so many distinct reflectances, sub-samples hardly ever show another one. Then their keys say all, and a second
+/// shader need not be compiled, which takes longer than it would run.
+constexpr std::size_t kFewReflectances = 512;
 
 /// Tiles whose points are on the device together.
 std::vector<std::vector<std::size_t>> make_batches(const TexelGrid& grid, std::span<const std::uint8_t> wanted,
@@ -95,18 +91,29 @@ DeviceBuffer upload(const Device& device, const std::vector<Value>& values) {
   return buffer;
 }
 
-/// The outlier at `point`, so that the basis can be extended by it.
-void add_outlier(const BakeJob& job, const SampledTexels& sampled, const SurfacePoints& point,
+/// The outlier at `place`, so that the basis can be extended by it.
+void add_outlier(const BakeJob& job, const SampledTexels& sampled, const ReflectancePlace& place,
                  ProjectedPoints& projected) {
   SampledReflectances reflectance;
   std::vector<std::uint64_t> keys;
   LaneVector<float> sums;
-  sampled.sampler.sample(*job.shader.bind(point), reflectance);
+  sampled.sampler.sample(*job.shader.bind(points_at(std::vector{place})), reflectance);
   sampled.keys.compute(reflectance, keys, sums);
   std::vector<float> scaled(reflectance.rows);
   scaled_reflectance(reflectance, 0, sampled.row_scales, scaled.data());
-  projected.outliers.insert(keys[0], scaled.data(), place_of(point));
+  projected.outliers.insert(keys[0], scaled.data(), place);
 }
+
+/// What texels are averaged with.
+struct Averaging {
+  const SampledTexels& sampled;
+  const ChosenBasis& basis;
+  const KnownWeights& known;
+  std::span<const std::uint8_t> wanted;
+  std::vector<Vec2> offsets;
+  bool by_keys;  ///< weigh_by_keys() instead of the shader of weight_text()
+  BakeCall call;
+};
 
 class DevicePasses final : public TexelPasses {
  public:
@@ -121,11 +128,13 @@ class DevicePasses final : public TexelPasses {
   struct SampleSlot;
   struct AverageSlot;
   void sample_batch(const BakeJob& job, std::span<const std::size_t> tiles, SampledTexels& sampled, SampleSlot& slot);
-  void average_batch(const BakeJob& job, std::span<const std::size_t> tiles, std::span<const Vec2> offsets,
-                     std::span<const std::uint8_t> wanted, const BakeCall& call, BaseLevel& base, AverageSlot& slot);
+  void average_batch(const BakeJob& job, std::span<const std::size_t> tiles, const Averaging& with, BaseLevel& base,
+                     AverageSlot& slot);
 
   const std::string device_;
-  std::optional<BakeKernels> kernels_;  ///< made by sample(), so that a bake's report has the time it takes
+  // Made by sample(), so that a bake's report has the time it takes.
+  std::optional<BakeKernels> kernels_;
+  std::optional<ComputePipeline> keys_;
 };
 
 /// Rasterizes the tiles of a batch.
@@ -171,13 +180,10 @@ void DevicePasses::sample_batch(const BakeJob& job, std::span<const std::size_t>
     slot.problem = problem_at(job, sampled.sampler, batch.point(*bad));
     return;
   }
-  const std::uint32_t* words = batch.out();
-  std::uint64_t last = 0;
   for (std::size_t i = 0; i < batch.points(); ++i) {
-    const std::uint64_t key = words[2 * i] | static_cast<std::uint64_t>(words[2 * i + 1]) << 32;
+    const std::uint64_t key = batch.key(i);
     sampled.id[batch.texels()[i]] = texel_id(key);
-    if (i > 0 && key == last) continue;
-    last = key;
+    if (i > 0 && key == batch.key(i - 1)) continue;
     if (slot.met.insert(key).second) slot.distinct.emplace_back(key, i);
   }
 }
@@ -187,12 +193,10 @@ void fill_in_vectors(const BakeJob& job, SampledTexels& sampled) {
   UniqueReflectances& unique = sampled.unique;
   parallel_for((unique.size() + kVectorBatch - 1) / kVectorBatch, [&](std::size_t batch) {
     const std::size_t begin = batch * kVectorBatch, count = std::min(kVectorBatch, unique.size() - begin);
-    SurfacePoints points;
-    points.resize(padded(count));
-    for (std::size_t i = 0; i < padded(count); ++i) set_place(unique.place(begin + std::min(i, count - 1)), i, points);
-    points.resize(count);
+    std::vector<ReflectancePlace> places;
+    for (std::size_t i = begin; i < begin + count; ++i) places.push_back(unique.place(i));
     SampledReflectances reflectances;
-    sampled.sampler.sample(*job.shader.bind(points), reflectances);
+    sampled.sampler.sample(*job.shader.bind(points_at(places)), reflectances);
     for (std::size_t i = 0; i < count; ++i)
       scaled_reflectance(reflectances, i, sampled.row_scales, unique.scaled(begin + i));
   });
@@ -204,20 +208,20 @@ void DevicePasses::sample(const BakeJob& job, SampledTexels& sampled) {
   const DeviceBuffer nothing_known(device, sizeof(FourWords));
   const std::size_t most = std::max<std::size_t>(kernels_->batch_points(), kTile * kTile);
   const auto batches = make_batches(job.grid, {}, 1, most);
-  const ComputePipeline pipeline = kernels_->keys(sampled);
+  keys_.emplace(kernels_->keys(sampled));
   std::vector<SampleSlot> slots(pipeline_slots());
   const auto produce = [&](std::size_t index, std::size_t i) {
     SampleSlot& slot = slots[i];
     slot.distinct.clear();
     if (job.monitor.stopped()) return;
-    if (!slot.batch) slot.batch.emplace(*kernels_, pipeline, nothing_known, most, 2);
+    if (!slot.batch) slot.batch.emplace(*kernels_, *keys_, nothing_known, most, 2);
     sample_batch(job, batches[index], sampled, slot);
   };
   parallel_pipeline(batches.size(), produce, [&](std::size_t index, std::size_t i) {
     SampleSlot& slot = slots[i];
     if (!slot.problem.empty()) job.monitor.fail(slot.problem);
     for (const auto& [key, point] : slot.distinct)
-      if (sampled.unique.wants(key)) sampled.unique.insert(key, place_of(slot.batch->point(point)));
+      if (sampled.unique.wants(key)) sampled.unique.insert(key, slot.batch->place(point));
     job.monitor.advance(static_cast<float>(index + 1) / static_cast<float>(batches.size()));
   });
   job.monitor.throw_if_stopped();
@@ -231,31 +235,31 @@ struct DevicePasses::AverageSlot {
   std::string problem;  ///< empty: none
   float residual = 0, outlier_residual = 0;
   std::vector<std::size_t> outlier_texels;
-  std::size_t outlier_point = 0;  ///< the worst
+  std::size_t outlier_point = 0;       ///< the worst
+  std::vector<std::uint32_t> weighed;  ///< by keys
 };
 
-void DevicePasses::average_batch(const BakeJob& job, std::span<const std::size_t> tiles, std::span<const Vec2> offsets,
-                                 std::span<const std::uint8_t> wanted, const BakeCall& shared, BaseLevel& base,
-                                 AverageSlot& slot) {
+void DevicePasses::average_batch(const BakeJob& job, std::span<const std::size_t> tiles, const Averaging& with,
+                                 BaseLevel& base, AverageSlot& slot) {
   PointBatch& batch = *slot.batch;
-  slot.scratch.rasterize(job.grid, tiles, offsets, wanted, batch);
-  const std::size_t count = batch.texels().size();
-  BakeCall call = shared;
-  call.count = static_cast<std::uint32_t>(count);
+  slot.scratch.rasterize(job.grid, tiles, with.offsets, with.wanted, batch);
+  BakeCall call = with.call;
+  call.count = static_cast<std::uint32_t>(with.by_keys ? batch.points() : batch.texels().size());
   if (const auto bad = batch.run(call)) {
-    slot.problem = problem_at(job, ReflectanceSampler(job.shader.info(), job.directions), batch.point(*bad));
+    slot.problem = problem_at(job, with.sampled.sampler, batch.point(*bad));
     return;
   }
+  if (with.by_keys) slot.weighed = weigh_by_keys(job, with.sampled, with.basis, with.known, batch);
   for (const std::size_t tile : tiles) {
     const TexelRegion region = job.grid.tile(tile);
     for (std::size_t i = 0; i < static_cast<std::size_t>(region.width) * region.height; ++i)
-      if (const std::size_t texel = job.grid.texel(region, i); wanted[texel]) base.coverage[texel] = 0;
+      if (const std::size_t texel = job.grid.texel(region, i); with.wanted[texel]) base.coverage[texel] = 0;
   }
   const std::size_t words = 4 * weight_vectors(base.channels);
-  for (std::size_t t = 0; t < count; ++t) {
+  for (std::size_t t = 0; t < batch.texels().size(); ++t) {
     const std::size_t texel = batch.texels()[t];
-    const std::uint32_t* out = batch.out() + t * words;
-    base.coverage[texel] = static_cast<float>(batch.points_of(t)) / static_cast<float>(offsets.size());
+    const std::uint32_t* out = (with.by_keys ? slot.weighed.data() : batch.out()) + t * words;
+    base.coverage[texel] = static_cast<float>(batch.points_of(t)) / static_cast<float>(with.offsets.size());
     std::memcpy(&base.values[texel * base.channels], out + kFirstWeight, base.channels * sizeof(float));
     slot.residual = std::max(slot.residual, std::bit_cast<float>(out[kResidualWord]));
     const float outlier = std::bit_cast<float>(out[kOutlierWord]);
@@ -267,14 +271,15 @@ void DevicePasses::average_batch(const BakeJob& job, std::span<const std::size_t
 ProjectedPoints DevicePasses::average(const BakeJob& job, const SampledTexels& sampled, const ChosenBasis& basis,
                                       const KnownWeights& known, std::span<const std::uint8_t> wanted, int sub_samples,
                                       BaseLevel& base) {
-  const std::vector<Vec2> offsets = sub_sample_offsets(sub_samples);
-  const std::size_t most = std::max(kernels_->batch_points(), kTile * kTile * offsets.size());
-  const auto batches = make_batches(job.grid, wanted, offsets.size(), most);
-  const ComputePipeline pipeline = kernels_->weights(sampled, basis);
+  Averaging with{
+      sampled, basis, known, wanted, sub_sample_offsets(sub_samples), sampled.unique.size() <= kFewReflectances, {}};
+  with.call.tolerance = job.options.tolerance;
+  const std::size_t most = std::max(kernels_->batch_points(), kTile * kTile * with.offsets.size());
+  const auto batches = make_batches(job.grid, wanted, with.offsets.size(), most);
   const int size = basis.reflectances.size();
-  BakeCall call;
-  call.tolerance = job.options.tolerance;
-  const DeviceBuffer known_buffer = upload(*kernels_->device(), known_table(known, size, call.known_slots));
+  const DeviceBuffer known_buffer = upload(*kernels_->device(), known_table(known, size, with.call.known_slots));
+  std::optional<ComputePipeline> weights;
+  if (!with.by_keys) weights.emplace(kernels_->weights(sampled, basis));
 
   ProjectedPoints projected(sampled.sampler.rows());
   std::vector<AverageSlot> slots(pipeline_slots());
@@ -282,8 +287,10 @@ ProjectedPoints DevicePasses::average(const BakeJob& job, const SampledTexels& s
     AverageSlot& slot = slots[i];
     slot.residual = slot.outlier_residual = 0, slot.outlier_texels.clear();
     if (job.monitor.stopped()) return;
-    if (!slot.batch) slot.batch.emplace(*kernels_, pipeline, known_buffer, most, 4 * weight_vectors(size));
-    average_batch(job, batches[index], offsets, wanted, call, base, slot);
+    if (!slot.batch)
+      slot.batch.emplace(*kernels_, weights ? *weights : *keys_, known_buffer, most,
+                         weights ? 4 * weight_vectors(size) : 2);
+    average_batch(job, batches[index], with, base, slot);
   };
   parallel_pipeline(batches.size(), produce, [&](std::size_t index, std::size_t i) {
     AverageSlot& slot = slots[i];
@@ -292,7 +299,7 @@ ProjectedPoints DevicePasses::average(const BakeJob& job, const SampledTexels& s
     projected.outlier_residual = std::max(projected.outlier_residual, slot.outlier_residual);
     projected.outlier_texels.insert(projected.outlier_texels.end(), slot.outlier_texels.begin(),
                                     slot.outlier_texels.end());
-    if (!slot.outlier_texels.empty()) add_outlier(job, sampled, slot.batch->point(slot.outlier_point), projected);
+    if (!slot.outlier_texels.empty()) add_outlier(job, sampled, slot.batch->place(slot.outlier_point), projected);
     job.monitor.advance(static_cast<float>(index + 1) / static_cast<float>(batches.size()));
   });
   job.monitor.throw_if_stopped();

@@ -99,15 +99,14 @@ std::optional<std::size_t> PointBatch::run(BakeCall call) {
   return status == kNothingWrong ? std::nullopt : std::optional<std::size_t>(status);
 }
 
-SurfacePoints PointBatch::point(std::size_t i) const {
-  SurfacePoints point;
-  point.resize(1);
-  point.time = time_;
+ReflectancePlace PointBatch::place(std::size_t i) const {
   const PackedPlace& place = reinterpret_cast<const PackedPlace*>(places_.data())[i];
-  for (std::size_t lane = 0; lane < point.position.stride(); ++lane) {  // padding repeats it
-    point.position.set(lane, place.position), point.normal.set(lane, place.normal);
-    point.tangent.set(lane, place.tangent), point.uv.set(lane, Vec2{place.u, place.v});
-  }
+  return {place.position, place.normal, place.tangent, {place.u, place.v}};
+}
+
+SurfacePoints PointBatch::point(std::size_t i) const {
+  SurfacePoints point = points_at(std::vector{place(i)});
+  point.time = time_;
   return point;
 }
 

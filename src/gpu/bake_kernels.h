@@ -62,7 +62,10 @@ class PointBatch {
   /// Runs the shader for `count` points or texels. Returns the first point of which something is wrong.
   std::optional<std::size_t> run(BakeCall call);
   const std::uint32_t* out() const { return reinterpret_cast<const std::uint32_t*>(out_.data()); }
+  /// What the shader of key_text() put out for a point.
+  std::uint64_t key(std::size_t i) const { return out()[2 * i] | static_cast<std::uint64_t>(out()[2 * i + 1]) << 32; }
   /// One of the points.
+  ReflectancePlace place(std::size_t i) const;
   SurfacePoints point(std::size_t i) const;
 
  private:

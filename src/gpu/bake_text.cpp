@@ -106,14 +106,19 @@ layout(binding = redmap_parameters_binding) uniform RedmapParameters { Parameter
 
 REDMAP_BOUND redmap_bind(uint redmap_i) {
   Surface redmap_at = redmap_place(redmap_i);
-#ifdef REDMAP_BLACK_BOX
+#ifndef REDMAP_BLACK_BOX
+  return pattern(redmap_at, redmap_parameters);
+#elif defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
+  vec3 redmap_n = redmap_at.normal, redmap_t = redmap_at.tangent;
 #ifdef REDMAP_PERTURBS
-  return redmap_framed(redmap_at, shading_normal(redmap_at, redmap_parameters));
+  redmap_n = shading_normal(redmap_at, redmap_parameters);
+#endif
+#ifdef REDMAP_TURNS
+  redmap_t = normalize(shading_tangent(redmap_at, redmap_parameters));
+#endif
+  return redmap_framed(redmap_at, redmap_n, redmap_t);
 #else
   return RedmapPlace(redmap_at, redmap_at.normal, redmap_at.tangent);
-#endif
-#else
-  return pattern(redmap_at, redmap_parameters);
 #endif
 }
 
