@@ -1,4 +1,4 @@
-// redmap bench gpu: frames on a Vulkan device, how long and how good, and whether they are the CPU's.
+// redmap bench gpu: frames and bakes on a Vulkan device, how long and how good, and whether they are the CPU's.
 #include <fmt/format.h>
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "common.h"
 #include "device/device.h"
+#include "gpu/bake_rows.h"
 #include "gpu/frame_times.h"
 #include "gpu/parity.h"
 #include "machine.h"
@@ -20,9 +21,10 @@ namespace {
 struct BenchGpuOptions {
   CommonOptions common;
   std::string device;
-  std::vector<std::string> parts{"rows", "parity"};
+  std::vector<std::string> parts{"rows", "bake", "parity"};
   bench::FrameTimeOptions frames;
   bench::ParityOptions parity;
+  bench::BakeRowOptions bake;
 };
 
 std::string method_name(const bench::FrameTimeRow& row) {
@@ -45,6 +47,23 @@ nlohmann::json frame_rows(const BenchGpuOptions& options) {
   return json;
 }
 
+nlohmann::json bake_rows(const BenchGpuOptions& options) {
+  nlohmann::json json = nlohmann::json::array();
+  fmt::print("{:<18} {:>6} {:>8} {:>8} {:>6} {:>12} {:>8}\n", "shader", "size", "device s", "cpu s", "ratio",
+             "mean weight", "flipped");
+  for (const bench::BakeRow& row : bench::measure_bakes(options.bake)) {
+    fmt::print("{:<18} {:>6} {:>8.3f} {:>8.3f} {:>6.2f} {:>12.7f} {:>8}\n", row.shader, row.size, row.gpu_seconds,
+               row.cpu_seconds, row.gpu_seconds / row.cpu_seconds, row.difference.mean_weight, row.difference.flipped);
+    json.push_back({{"shader", row.shader},
+                    {"size", row.size},
+                    {"gpu_seconds", row.gpu_seconds},
+                    {"cpu_seconds", row.cpu_seconds},
+                    {"mean_weight_difference", row.difference.mean_weight},
+                    {"flipped_texels", row.difference.flipped}});
+  }
+  return json;
+}
+
 nlohmann::json parity_rows(const BenchGpuOptions& options) {
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:<18} {:>8} {:>9} {:>9}\n", "shader", "distance", "rmse", "largest");
@@ -57,16 +76,18 @@ nlohmann::json parity_rows(const BenchGpuOptions& options) {
 
 void run_bench_gpu(BenchGpuOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
+  options.bake.models = options.parity.models;
   const DeviceInfo device = Device::open(options.device)->info();
-  options.frames.device = options.parity.device = options.device;
+  options.frames.device = options.parity.device = options.bake.device = options.device;
   std::optional<Progress> progress(std::in_place, "measuring");
-  options.frames.progress = options.parity.progress = [&](double part) { progress->update(part); };
-  options.frames.cancelled = options.parity.cancelled = interrupted;
+  options.frames.progress = options.parity.progress =
+      options.bake.progress = [&](double part) { progress->update(part); };
+  options.frames.cancelled = options.parity.cancelled = options.bake.cancelled = interrupted;
   nlohmann::json json{
       {"machine", machine_json()}, {"device", device.name}, {"driver", device.driver}, {"software", device.software}};
   fmt::print("{}{}\n", device.name, device.software ? ", software Vulkan" : "");
   for (const std::string& part : options.parts) {
-    json[part] = part == "rows" ? frame_rows(options) : parity_rows(options);
+    json[part] = part == "rows" ? frame_rows(options) : part == "bake" ? bake_rows(options) : parity_rows(options);
     stop_if_interrupted();
   }
   progress.reset();
@@ -77,10 +98,11 @@ void run_bench_gpu(BenchGpuOptions& options) {
 
 void add_bench_gpu(CLI::App& bench_app) {
   auto options = std::make_shared<BenchGpuOptions>();
-  CLI::App* sub = bench_app.add_subcommand("gpu", "Frames on a Vulkan device: time, error, and agreement with the CPU");
-  sub->add_option("--parts", options->parts, "What to measure: rows, parity")
+  CLI::App* sub =
+      bench_app.add_subcommand("gpu", "Frames and bakes on a Vulkan device: time, error, and agreement with the CPU");
+  sub->add_option("--parts", options->parts, "What to measure: rows (frames), bake, parity")
       ->delimiter(',')
-      ->check(CLI::IsMember({"rows", "parity"}))
+      ->check(CLI::IsMember({"rows", "bake", "parity"}))
       ->capture_default_str();
   sub->add_option("--shaders", options->frames.shaders, "Library shaders of the rows")
       ->delimiter(',')
@@ -101,6 +123,12 @@ void add_bench_gpu(CLI::App& bench_app) {
   sub->add_option("--parity-object", options->parity.object, "sphere, cylinder, bunny, dragon")->capture_default_str();
   sub->add_option("--parity-shaders", options->parity.shaders, "Library shaders of the parity (all if not given)")
       ->delimiter(',');
+  sub->add_option("--bake-shaders", options->bake.shaders, "Library shaders to bake (all if not given)")
+      ->delimiter(',');
+  sub->add_option("--bake-size", options->bake.size, "Texels across a map that is baked both ways")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
+  sub->add_option("--bake-object", options->bake.object, "sphere, cylinder, bunny, dragon")->capture_default_str();
   sub->add_option("--models", options->parity.models, "Folder of bunny_10k.obj and dragon_20k.obj")
       ->capture_default_str();
   add_device_option(*sub, options->device);

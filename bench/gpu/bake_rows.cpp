@@ -5,6 +5,8 @@
 
 #include "bake/bake.h"
 #include "gpu/bake.h"
+#include "quality/bench_scene.h"
+#include "shader/shader.h"
 
 namespace redmap::bench {
 namespace {
@@ -18,8 +20,6 @@ MapDifference compare_maps(const ReductionMap& a, const ReductionMap& b) {
   MapDifference result;
   result.same_basis = a.basis.size() == b.basis.size() && a.weights.extent(0) == b.weights.extent(0);
   if (!result.same_basis) return result;
-  for (std::size_t i = 0; i < a.basis.size(); ++i)
-    result.farthest_basis = std::max(result.farthest_basis, double(length(a.basis[i].position - b.basis[i].position)));
   const auto [width, height] = a.weights.extent(0);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -47,6 +47,18 @@ BakeRow measure_bake(const Surface& surface, const std::string& shader, int size
   const ReductionMap expected = bake(surface, *made, options, &cpu);
   const ReductionMap found = bake(surface, *made, options, *make_device_passes(device), &gpu);
   return {shader, size, gpu.seconds, cpu.seconds, compare_maps(expected, found)};
+}
+
+std::vector<BakeRow> measure_bakes(const BakeRowOptions& options) {
+  const std::shared_ptr<const Surface> surface = make_bench_surface(options.object, options.models);
+  const std::vector<std::string> shaders = options.shaders.empty() ? library_shader_names() : options.shaders;
+  std::vector<BakeRow> rows;
+  for (const std::string& shader : shaders) {
+    if (options.cancelled && options.cancelled()) break;
+    rows.push_back(measure_bake(*surface, shader, options.size, options.device));
+    if (options.progress) options.progress(static_cast<double>(rows.size()) / static_cast<double>(shaders.size()));
+  }
+  return rows;
 }
 
 }  // namespace redmap::bench
