@@ -47,6 +47,14 @@ class FootprintTexels {
     }
   }
 
+  /// Calls row(y, first x, last x) for every row.
+  template <typename Row>
+  void for_each_row(const Row& row) const {
+    const int x0 = wraps_u_ ? ((x0_ % width_) + width_) % width_ : x0_;
+    const int x1 = wraps_u_ ? ((x1_ % width_) + width_) % width_ : x1_;
+    for (int y = y0_; y <= y1_ && x0_ <= x1_; ++y) row(y, x0, x1);
+  }
+
  private:
   /// How much of [a - half, a + half] lies in [-1/2, 1/2].
   static float overlap(float a, float half) { return std::min(a + half, 0.5f) - std::max(a - half, -0.5f); }

@@ -1,12 +1,16 @@
 // Gathering the normals under a footprint: raw texels, each by the area that the footprint has of it. What the
 // footprint takes in matters more than how it is integrated afterwards (docs/normals.md).
 #include <algorithm>
+#include <array>
 
 #include "map/footprint_texels.h"
 #include "map/normal_pyramid.h"
 
 namespace redmap {
 namespace {
+
+/// Footprints between asking for texels and using them.
+constexpr std::size_t kAhead = 4;
 
 void set(const NormalGaussian& normals, std::size_t i, NormalMixtures& out) {
   out.x[i] = normals.x, out.y[i] = normals.y;
@@ -53,28 +57,57 @@ bool NormalPyramid::gather_level(int level, const Footprint& footprint, const We
   return total > 0;
 }
 
+void NormalPyramid::prefetch(int level, const FootprintTexels& texels, const WeightPyramid& weights) const {
+  const int stride = weights.texel_stride();
+  texels.for_each_row([&](int y, int first, int last) {
+    const std::uint8_t* weight_row = weights.row(level, y).data();
+    for (const int x : {first, last}) {
+      __builtin_prefetch(weight_row + static_cast<std::size_t>(x) * stride);
+      __builtin_prefetch(texel(level, x, y));
+    }
+  });
+}
+
 void NormalPyramid::gather(std::span<const Footprint> footprints, const WeightPyramid& weights, float texels,
                            NormalMixtures& out) const {
-  for (const Footprint& each : footprints) {
-    const bool usable = is_finite(each);
-    const GatherPlan plan = usable ? plan_gather(each, extent(0), levels(), texels) : GatherPlan{};
-    const float coarse = plan.coarse_part;
-    std::uint32_t count = out.first.back();
-    const bool found =
-        usable && coarse < 1 && gather_level(plan.level, plan.footprint, weights, 1 - coarse, count, out);
-    // What is covered on the finer level is so on the coarser.
-    const bool found_coarse =
-        usable && coarse > 0 && gather_level(plan.level + 1, plan.footprint, weights, found ? coarse : 1, count, out);
-    if (!found && !found_coarse) {
-      // Between charts, or nowhere: what the weights have there, at one normal.
-      const FilteredTexel texel = weights.lookup(each);
-      out.make_room(count + 1);
-      set({}, count, out);
-      for (int b = 0; b < basis_; ++b) out.weights[b][count] = texel.channel[b];
-      ++count;
-    }
-    out.first.push_back(count);
+  struct Planned {
+    bool usable = false;
+    GatherPlan plan;
+  };
+  // The texels of a footprint are on their way while those before it are worked on.
+  std::array<Planned, kAhead> ring;
+  const auto plan = [&](std::size_t i) {
+    Planned& next = ring[i % kAhead] = {};
+    next.usable = is_finite(footprints[i]);
+    if (!next.usable) return;
+    next.plan = plan_gather(footprints[i], extent(0), levels(), texels);
+    const int level = next.plan.level + (next.plan.coarse_part >= 1 ? 1 : 0);
+    prefetch(level, FootprintTexels(next.plan.footprint, extent(level), weights.wraps_u()), weights);
+  };
+  for (std::size_t i = 0; i < std::min(kAhead - 1, footprints.size()); ++i) plan(i);
+  for (std::size_t i = 0; i < footprints.size(); ++i) {
+    if (i + kAhead - 1 < footprints.size()) plan(i + kAhead - 1);
+    gather_one(footprints[i], ring[i % kAhead].usable, ring[i % kAhead].plan, weights, out);
   }
+}
+
+void NormalPyramid::gather_one(const Footprint& footprint, bool usable, const GatherPlan& plan,
+                               const WeightPyramid& weights, NormalMixtures& out) const {
+  const float coarse = plan.coarse_part;
+  std::uint32_t count = out.first.back();
+  const bool found = usable && coarse < 1 && gather_level(plan.level, plan.footprint, weights, 1 - coarse, count, out);
+  // What is covered on the finer level is so on the coarser.
+  const bool found_coarse =
+      usable && coarse > 0 && gather_level(plan.level + 1, plan.footprint, weights, found ? coarse : 1, count, out);
+  if (!found && !found_coarse) {
+    // Between charts, or nowhere: what the weights have there, at one normal.
+    const FilteredTexel texel = weights.lookup(footprint);
+    out.make_room(count + 1);
+    set({}, count, out);
+    for (int b = 0; b < basis_; ++b) out.weights[b][count] = texel.channel[b];
+    ++count;
+  }
+  out.first.push_back(count);
 }
 
 }  // namespace redmap

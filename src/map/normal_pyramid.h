@@ -45,6 +45,9 @@ inline NormalGaussian unpack(const PackedNormals& packed) {
           half_sum + along, half_difference * kPackedTables.sine[b[5]], half_sum - along};
 }
 
+class FootprintTexels;
+struct GatherPlan;
+
 class NormalPyramid {
  public:
   /// Gaussians a texel: one at the base, this many on every other level.
@@ -87,6 +90,9 @@ class NormalPyramid {
   /// False if nothing is covered.
   bool gather_level(int level, const Footprint& footprint, const WeightPyramid& weights, float part,
                     std::uint32_t& count, NormalMixtures& out) const;
+  void gather_one(const Footprint& footprint, bool usable, const GatherPlan& plan, const WeightPyramid& weights,
+                  NormalMixtures& out) const;
+  void prefetch(int level, const FootprintTexels& texels, const WeightPyramid& weights) const;
   std::uint8_t* texel(int level, int x, int y) {
     const Level& l = levels_[level];
     return data_.data() + l.offset + (static_cast<std::size_t>(y) * l.extent.width + x) * texel_bytes(level);
