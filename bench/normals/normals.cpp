@@ -98,8 +98,10 @@ void measure_method(const Views& views, const std::vector<ObjectData>& data, con
   row.relative_rmse = errors.interior() / errors.mean_reference();
   row.reference_residual = views.between_halves.interior() / 2 / errors.mean_reference();
   row.pixels = errors.interior_pixels();
-  row.shader_calls_per_lookup =
-      static_cast<double>(counts.shader_calls) / (views.object_pixels * method.lookups_per_pixel);
+  // Maps count theirs, those of rays at silhouettes too.
+  const double lookups = method.options.method == Method::kMap ? static_cast<double>(counts.lookups)
+                                                               : views.object_pixels * method.lookups_per_pixel;
+  row.shader_calls_per_lookup = static_cast<double>(counts.shader_calls) / lookups;
   row.supersampled_part = static_cast<double>(counts.supersampled_pixels) / views.object_pixels;
   row.microseconds_per_pixel = 1e6 * best / views.pixels;
 }
