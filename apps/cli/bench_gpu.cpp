@@ -121,6 +121,9 @@ void add_bench_gpu(CLI::App& bench_app) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   sub->add_option("--parity-object", options->parity.object, "sphere, cylinder, bunny, dragon")->capture_default_str();
+  sub->add_option("--parity-size", options->parity.map_size, "Texels across a map of the parity")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
   sub->add_option("--parity-shaders", options->parity.shaders, "Library shaders of the parity (all if not given)")
       ->delimiter(',');
   sub->add_option("--bake-shaders", options->bake.shaders, "Library shaders to bake (all if not given)")

@@ -101,9 +101,9 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, std::shar
   const Vec3 size = surface_->upper() - surface_->lower();
   values_.shape = {1, 0.5f * size.x, size.y, average_scale(*surface_)};
   if (map_) {
-    set_map_traits(*map_, traits_), set_map_block(*map_, values_);
+    set_map_traits(*map_, *surface_, traits_), set_map_block(*map_, values_);
     texels_.push_back(make_weight_texture(*device_, *map_));
-    data_ = LocalBuffer(*device_, bytes_of_all(map_data(*map_, traits_)));
+    data_ = LocalBuffer(*device_, bytes_of_all(map_data(*map_, *surface_, traits_)));
   } else {
     texels_.push_back(LayeredTexture(*device_, {1, 1}, 1, 1, false, std::vector<std::byte>(4)));
   }

@@ -4,8 +4,10 @@
 #include <bit>
 #include <cmath>
 
+#include "gpu/seam_memory.h"
 #include "lobes/gaussian_points.h"
 #include "lobes/lobe_lanes.h"
+#include "surface/seams.h"
 
 namespace redmap {
 namespace {
@@ -76,13 +78,27 @@ void append_normals(const NormalPyramid& normals, Words& words) {
   std::memcpy(&words[first], bytes.data(), bytes.size());
 }
 
+/// From the root on; nodes above the leaves are joined as the CPU joins them.
+void append_clusters(const SurfaceClusters& clusters, Words& words) {
+  for (std::size_t node = 1; node < 2 * clusters.leaves(); ++node) {
+    const ClusterPlace& place = clusters.place(node);
+    append(place.position, words), append(place.normal, words);
+    append(place.radius, words), append(place.variance, words);
+    for (const float weight : clusters.weights(node)) append(weight, words);
+  }
+}
+
 }  // namespace
 
-void set_map_traits(const ReductionMap& map, ObjectTraits& traits) {
+void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTraits& traits) {
   traits.basis = static_cast<int>(map.basis.size());
   traits.has_coverage = !is_covered(map.weights);
   traits.wraps_u = map.weights.wraps_u();
   traits.has_normals = !map.normals.empty();
+  // Under mixtures of normals the CPU asks the atlas alone (render/map_shading.cpp).
+  traits.leaves = map.normals.empty() ? map.clusters.leaves() : 0;
+  const Seams* seams = surface.seams();
+  traits.mends_seams = map.normals.empty() && traits.has_coverage && seams && !seams->empty();
   for (std::size_t b = 0; b < map.basis.size(); ++b) {
     const LobeModel model = model_of(map, b);
     traits.widths = std::max(traits.widths, widths_of(widths_in_use(model)));
@@ -125,7 +141,7 @@ LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map
   return LayeredTexture(device, weights.extent(0), layers, weights.levels(), weights.wraps_u(), texels);
 }
 
-std::vector<std::uint32_t> map_data(const ReductionMap& map, const ObjectTraits& traits) {
+std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surface, const ObjectTraits& traits) {
   Words words;
   for (const BasisPlace& place : map.basis) {
     append(place.position, words), append(place.normal, words), append(place.tangent, words);
@@ -134,6 +150,11 @@ std::vector<std::uint32_t> map_data(const ReductionMap& map, const ObjectTraits&
   for (std::size_t b = 0; b < map.basis.size(); ++b) append_model(model_of(map, b), traits.widths, words);
   for (const Vec2 point : gaussian_points()) append(point.x, words), append(point.y, words);
   if (traits.has_normals) append_normals(map.normals, words);
+  if (traits.leaves > 0) append_clusters(map.clusters, words);
+  if (traits.mends_seams) {
+    const Words seams = seam_data(surface);
+    words.insert(words.end(), seams.begin(), seams.end());
+  }
   return words;
 }
 

@@ -6,19 +6,20 @@
 #include "gpu/frame_blocks.h"
 #include "gpu/object_text.h"
 #include "map/reduction_map.h"
+#include "surface/surface.h"
 
 namespace redmap {
 
 /// What the texts of an object with this map depend on.
-void set_map_traits(const ReductionMap& map, ObjectTraits& traits);
+void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTraits& traits);
 /// The map's part of an object's block.
 void set_map_block(const ReductionMap& map, ObjectBlock& block);
 
 /// Weights, four to a layer, multiplied by coverage where there is any; coverage follows the last.
 LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map);
 
-/// Places of the basis, lobe models, drawn normals and, where the map has them, bytes of normals, as
-/// kernels/place.glsl, lobes.glsl and normals.glsl lay them out.
-std::vector<std::uint32_t> map_data(const ReductionMap& map, const ObjectTraits& traits);
+/// Places of the basis, lobe models, drawn normals and, where the map has them, bytes of normals, or else clusters and
+/// seams of the surface, as kernels/place.glsl, lobes.glsl, normals.glsl, clusters.glsl and seams.glsl lay them out.
+std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surface, const ObjectTraits& traits);
 
 }  // namespace redmap

@@ -17,6 +17,8 @@ std::string definitions(const ShaderInfo& info, const ObjectTraits& traits) {
   std::string lines = fmt::format("#define REDMAP_BASIS {}\n#define REDMAP_HAS_COVERAGE {}\n", traits.basis,
                                   traits.has_coverage ? 1 : 0);
   lines += fmt::format("#define REDMAP_WRAPS {}\n#define REDMAP_WIDTHS {}\n", traits.wraps_u ? 1 : 0, traits.widths);
+  lines += fmt::format("#define REDMAP_LEAVES {}\n", traits.leaves);
+  if (traits.mends_seams) lines += "#define REDMAP_MENDS\n";
   if (traits.shadows) lines += "#define REDMAP_SHADOWS\n";
   if (traits.draws_normals) lines += "#define REDMAP_DRAWS_NORMALS\n";
   if (!info.file.empty()) lines += "#define REDMAP_GUARDED\n";
@@ -47,6 +49,8 @@ ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, con
   if (traits.basis > 0) {
     before += kernel_texts({"lookup", "lobes"});
     if (traits.has_normals) before += kernel_text("normals");
+    if (traits.leaves > 0) before += kernel_text("clusters");
+    if (traits.mends_seams) before += kernel_text("seams");
     after += kernel_texts({"shade_map", "shade_spread", traits.has_normals ? "shade_normals" : "shade_turning"});
   }
   after += kernel_text("shade_main");

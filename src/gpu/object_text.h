@@ -21,6 +21,8 @@ struct ObjectTraits {
   bool has_normals = false;    ///< the map holds normals
   bool draws_normals = false;  ///< no lobe model fits some basis reflectance
   int widths = 1;              ///< most Gaussians of a lobe model
+  std::size_t leaves = 0;      ///< of the map's clusters, where they are used
+  bool mends_seams = false;    ///< footprints may reach over seams of the map's atlas
 };
 
 /// Stages of shading: values of specialization constant 0.

@@ -198,7 +198,7 @@ bool SurfaceClusters::lookup(const SurfaceFootprint& footprint, std::array<float
     const float part = kernel.weight(place) * std::ldexp(1.0f, -static_cast<int>(std::bit_width(node)));
     if (part <= 0) continue;
     total += part;
-    const std::span<const float> mean = weights_of(node);
+    const std::span<const float> mean = this->weights(node);
     for (int c = 0; c < channels_; ++c) weights[c] += part * mean[c];
   }
   if (!(total > 0)) return false;

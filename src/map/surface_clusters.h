@@ -44,8 +44,13 @@ class SurfaceClusters {
   bool empty() const { return places_.empty(); }
   int channels() const { return channels_; }
   std::size_t leaves() const { return places_.size() / 2; }
-  const ClusterPlace& leaf(std::size_t i) const { return places_[leaves() + i]; }
-  std::span<const float> leaf_weights(std::size_t i) const { return weights_of(leaves() + i); }
+  /// Of a node: 1 is the root, 2 i and 2 i + 1 are below i, the last half are the leaves.
+  const ClusterPlace& place(std::size_t node) const { return places_[node]; }
+  std::span<const float> weights(std::size_t node) const {
+    return {weights_.data() + node * channels_, static_cast<std::size_t>(channels_)};
+  }
+  const ClusterPlace& leaf(std::size_t i) const { return place(leaves() + i); }
+  std::span<const float> leaf_weights(std::size_t i) const { return weights(leaves() + i); }
   std::size_t bytes() const { return places_.size() * sizeof(ClusterPlace) + weights_.size() * sizeof(float); }
 
   /// Mean weights of what is under the footprint and faces its side, into the first channels of `weights`. False if
@@ -53,12 +58,7 @@ class SurfaceClusters {
   bool lookup(const SurfaceFootprint& footprint, std::array<float, kMaxChannels>& weights) const;
 
  private:
-  std::span<const float> weights_of(std::size_t node) const {
-    return {weights_.data() + node * channels_, static_cast<std::size_t>(channels_)};
-  }
-
   int channels_ = 0;
-  // Node 1 is the root, 2 i and 2 i + 1 are below i, the leaves are the last half.
   std::vector<ClusterPlace> places_;
   std::vector<float> weights_;
 };

@@ -30,6 +30,7 @@ class Seams {
   Seams(const TriangleMesh& mesh, std::span<const std::uint32_t> charts);
 
   bool empty() const { return edges_.empty(); }
+  std::span<const SeamEdge> edges() const { return edges_; }
 
   /// The edges of `chart` that may come within `reach` of `uv` in u and in v.
   std::vector<SeamEdge> near(Vec2 uv, std::uint32_t chart, float reach) const;

@@ -21,5 +21,14 @@ TEST_P(LibraryOnDevice, LooksAsOnTheCpuFromEverywhere) {
     EXPECT_LE(row.rmse, .002) << row.distance << " texels across a pixel, largest error " << row.max_error;
 }
 
+/// Charts and clusters of an atlas. The bunny is fetched, not committed: nothing to test where it is not.
+TEST(MeshOnDevice, LooksAsOnTheCpuFromEverywhere) {
+  bench::ParityOptions options;
+  options.object = "bunny", options.shaders = {"noise", "stone"}, options.models = REDMAP_MODELS;
+  if (!std::filesystem::exists(options.models / "bunny_10k.obj")) GTEST_SKIP();
+  for (const bench::ParityRow& row : bench::measure_parity(options))
+    EXPECT_LE(row.rmse, .001) << row.shader << " at " << row.distance << ", largest error " << row.max_error;
+}
+
 }  // namespace
 }  // namespace redmap

@@ -7,6 +7,7 @@ struct RedmapHit {
   vec3 to_viewer;
   bool turned;  // the normals, towards the viewer
   vec2 duv_dx, duv_dy;
+  uint triangle;
 };
 
 // A unit vector perpendicular to `normal`, along `tangent` if that is possible.
@@ -119,6 +120,7 @@ RedmapHit redmap_hit(uint number, uvec2 place) {
   vec3 unnormalised = redmap_top_left.xyz + redmap_right.xyz * pixel.x + redmap_down.xyz * pixel.y;
   vec3 eye = redmap_point_to_object(redmap_eye.xyz);
   RedmapHit hit;
+  hit.triangle = number;
   hit.to_viewer = -redmap_to_object(normalize(unnormalised));
   redmap_complete(number, eye, -hit.to_viewer, hit);
   hit.turned = dot(hit.geometric, hit.to_viewer) < 0.0;

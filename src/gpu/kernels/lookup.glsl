@@ -19,13 +19,31 @@ RedmapTexel redmap_tap(vec2 uv, float level) {
   return texel;
 }
 
-RedmapTexel redmap_taps(vec2 first, vec2 step, float taps, float level) {
-  RedmapTexel sum = redmap_tap(first, level);
-  for (float i = 1.0; i < taps; i += 1.0) {
-    RedmapTexel tap = redmap_tap(first + step * i, level);
+// Taps of equal weight along the major axis, all on one level.
+struct RedmapPlan {
+  vec2 first, step;
+  float taps, level;
+};
+RedmapPlan redmap_plan(vec2 uv, RedmapAxes axes) {
+  float texel = max(redmap_texel_per_minor * max(axes.minor, axes.major / redmap_most_anisotropy), 1.0);
+  float rest = sqrt(max(axes.major * axes.major - 3.0 * texel * texel, 0.0));
+  bool is_long = rest > 0.5 * texel;
+  float taps =
+      is_long ? clamp(ceil(rest / (redmap_tap_spacing * texel) + 0.5), 2.0, redmap_most_taps) : 1.0;
+  vec2 step = is_long ? axes.major_uv * (rest / (axes.major * sqrt(taps * taps - 1.0))) : vec2(0.0);
+  float level = min(float((floatBitsToInt(texel) >> 23) - 127), max(redmap_map.z - 2.0, 0.0));
+  float ratio = texel * exp2(-level);
+  level += redmap_map.z > 1.0 ? clamp((ratio * ratio - 1.0) / 3.0, 0.0, 1.0) : 0.0;
+  return RedmapPlan(uv - step * (0.5 * (taps - 1.0)), step, taps, level);
+}
+
+RedmapTexel redmap_taps(RedmapPlan plan) {
+  RedmapTexel sum = redmap_tap(plan.first, plan.level);
+  for (float i = 1.0; i < plan.taps; i += 1.0) {
+    RedmapTexel tap = redmap_tap(plan.first + plan.step * i, plan.level);
     for (int k = 0; k < redmap_layers; k++) sum.channels[k] += tap.channels[k];
   }
-  for (int k = 0; k < redmap_layers; k++) sum.channels[k] /= taps;
+  for (int k = 0; k < redmap_layers; k++) sum.channels[k] /= plan.taps;
   return sum;
 }
 
@@ -37,19 +55,8 @@ float redmap_coverage(RedmapTexel texel) {
 #endif
 }
 
-float[REDMAP_BASIS] redmap_look_up(vec2 uv, RedmapAxes axes) {
-  float texel = max(redmap_texel_per_minor * max(axes.minor, axes.major / redmap_most_anisotropy), 1.0);
-  float rest = sqrt(max(axes.major * axes.major - 3.0 * texel * texel, 0.0));
-  bool is_long = rest > 0.5 * texel;
-  float taps =
-      is_long ? clamp(ceil(rest / (redmap_tap_spacing * texel) + 0.5), 2.0, redmap_most_taps) : 1.0;
-  vec2 step = is_long ? axes.major_uv * (rest / (axes.major * sqrt(taps * taps - 1.0))) : vec2(0.0);
-  float level = min(float((floatBitsToInt(texel) >> 23) - 127), max(redmap_map.z - 2.0, 0.0));
-  float ratio = texel * exp2(-level);
-  level += redmap_map.z > 1.0 ? clamp((ratio * ratio - 1.0) / 3.0, 0.0, 1.0) : 0.0;
-
-  vec2 first = uv - step * (0.5 * (taps - 1.0));
-  RedmapTexel sum = redmap_taps(first, step, taps, level);
+// What was looked up about `uv` on `level`, no longer multiplied by coverage.
+float[REDMAP_BASIS] redmap_weights_of(vec2 uv, float level, RedmapTexel sum) {
 #if REDMAP_HAS_COVERAGE
   // Between charts: whatever is nearest, on coarser levels.
   while (redmap_coverage(sum) < redmap_least_coverage && level < redmap_map.z) {
@@ -62,4 +69,9 @@ float[REDMAP_BASIS] redmap_look_up(vec2 uv, RedmapAxes axes) {
   for (int b = 0; b < REDMAP_BASIS; b++)
     weights[b] = sum.channels[b / 4][b % 4] * redmap_scales[b / 4][b % 4] * scale;
   return weights;
+}
+
+float[REDMAP_BASIS] redmap_look_up(vec2 uv, RedmapAxes axes) {
+  RedmapPlan plan = redmap_plan(uv, axes);
+  return redmap_weights_of(uv, plan.level, redmap_taps(plan));
 }

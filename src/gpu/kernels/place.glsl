@@ -14,6 +14,12 @@ void redmap_ended(uint function) {
 #else
 void redmap_ended(uint function) {}
 #endif
+// For loops of ours, which end: they take no rounds.
+void redmap_forget_rounds() {
+#ifdef REDMAP_GUARDED
+  redmap_rounds = 0u;
+#endif
+}
 
 // Places of the basis, lobe models, normals: floats by their bits, or bytes.
 layout(std430, binding = 7) readonly buffer RedmapData { uint redmap_data[]; };

@@ -41,7 +41,14 @@ vec3 redmap_spread_out(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS]) {
 }
 
 vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sample) {
+#ifdef REDMAP_MENDS
+  float redmap_w[REDMAP_BASIS] = redmap_look_up_over_seams(redmap_hit_, redmap_a);
+#else
   float redmap_w[REDMAP_BASIS] = redmap_look_up(redmap_hit_.uv, redmap_a);
+#endif
+#if REDMAP_LEAVES > 0
+  redmap_blend_clusters(redmap_hit_, redmap_a, redmap_w);
+#endif
   if (redmap_draws != 0u) return redmap_drawn(redmap_hit_, redmap_w, redmap_sample);
   if (redmap_stage == redmap_spread_stage) return redmap_spread_out(redmap_hit_, redmap_w);
   return redmap_looked_up(redmap_hit_, redmap_w);
