@@ -45,15 +45,15 @@ GatherPlan plan_gather(const Footprint& footprint, Extent extent, int levels, fl
 FootprintTexels::FootprintTexels(const Footprint& footprint, Extent extent, bool wraps_u)
     : wraps_u_(wraps_u), width_(extent.width) {
   const float columns = static_cast<float>(extent.width), rows = static_cast<float>(extent.height);
-  const Vec2 dx{footprint.duv_dx.x * columns, footprint.duv_dx.y * rows};
-  const Vec2 dy{footprint.duv_dy.x * columns, footprint.duv_dy.y * rows};
-  const float determinant = dx.x * dy.y - dx.y * dy.x;
-  to_a_ = Vec2{dy.y, -dy.x} * (1 / determinant), to_b_ = Vec2{-dx.y, dx.x} * (1 / determinant);
+  dx_ = {footprint.duv_dx.x * columns, footprint.duv_dx.y * rows};
+  dy_ = {footprint.duv_dy.x * columns, footprint.duv_dy.y * rows};
+  const float determinant = dx_.x * dy_.y - dx_.y * dy_.x;
+  to_a_ = Vec2{dy_.y, -dy_.x} * (1 / determinant), to_b_ = Vec2{-dx_.y, dx_.x} * (1 / determinant);
   half_a_ = 0.5f * (std::abs(to_a_.x) + std::abs(to_a_.y));
   half_b_ = 0.5f * (std::abs(to_b_.x) + std::abs(to_b_.y));
   centre_ = {footprint.uv.x * columns, footprint.uv.y * rows};
-  const float reach_x = 0.5f * (std::abs(dx.x) + std::abs(dy.x)) + 0.5f;
-  const float reach_y = 0.5f * (std::abs(dx.y) + std::abs(dy.y)) + 0.5f;
+  const float reach_x = 0.5f * (std::abs(dx_.x) + std::abs(dy_.x)) + 0.5f;
+  const float reach_y = 0.5f * (std::abs(dx_.y) + std::abs(dy_.y)) + 0.5f;
   // Beyond the edge on either side lies a texel that is not there, or a turn of those that are.
   y0_ = std::max(0, texel_at(centre_.y - reach_y, -1, extent.height));
   y1_ = std::min(extent.height - 1, texel_at(centre_.y + reach_y, -1, extent.height));

@@ -2,6 +2,7 @@
 // footprint takes in matters more than how it is integrated afterwards (docs/normals.md).
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "map/footprint_texels.h"
 #include "map/normal_pyramid.h"
@@ -23,7 +24,46 @@ PackedNormals packed_at(const std::uint8_t* bytes) {
   return packed;
 }
 
+/// The smaller of two differences where they have the same sign: an edge is no slope.
+float limited(float a, float b) { return a * b <= 0 ? 0 : std::abs(a) < std::abs(b) ? a : b; }
+Vec2 limited(Vec2 a, Vec2 b) { return {limited(a.x, b.x), limited(a.y, b.y)}; }
+
+/// The normals of a part of a texel, which vary by `slope` over the whole.
+void cut(const TexelPart& part, const NormalSlope& slope, NormalGaussian& normals) {
+  normals.x += slope.along_x.x * part.offset.x + slope.along_y.x * part.offset.y;
+  normals.y += slope.along_x.y * part.offset.x + slope.along_y.y * part.offset.y;
+  const float xx = (slope.along_x.x * slope.along_x.x + slope.along_y.x * slope.along_y.x) / 12;
+  const float yy = (slope.along_x.y * slope.along_x.y + slope.along_y.y * slope.along_y.y) / 12;
+  const float xy = (slope.along_x.x * slope.along_x.y + slope.along_y.x * slope.along_y.y) / 12;
+  const float missing = 0.5f * (part.missing_x + part.missing_y);
+  // No more than there is, along either axis.
+  const float most = std::min({1.0f, normals.xx / std::max(xx, 1e-12f), normals.yy / std::max(yy, 1e-12f)});
+  normals.xx -= missing * most * xx, normals.xy -= missing * most * xy, normals.yy -= missing * most * yy;
+  const float bound = std::sqrt(std::max(0.0f, normals.xx * normals.yy));
+  normals.xy = std::clamp(normals.xy, -bound, bound);
+}
+
 }  // namespace
+
+NormalSlope NormalPyramid::slope_at(const WeightPyramid& weights, int x, int y) const {
+  const auto [width, height] = extent(0);
+  const auto mean = [&](int i, int j, Vec2& value) {
+    if (weights.wraps_u()) i = (i + width) % width;
+    if (i < 0 || i >= width || j < 0 || j >= height ||
+        weights.row(0, j)[static_cast<std::size_t>(i) * weights.texel_stride()] == 0)
+      return false;
+    const std::uint8_t* b = texel(0, i, j);
+    value = {static_cast<float>((b[0] | (b[1] & 15) << 8) - 2048) * (1 / kPackedMeanSteps),
+             static_cast<float>((b[1] >> 4 | b[2] << 4) - 2048) * (1 / kPackedMeanSteps)};
+    return true;
+  };
+  const auto slope = [&](int i, int j) {
+    Vec2 before, here, after;
+    if (!mean(x - i, y - j, before) || !mean(x, y, here) || !mean(x + i, y + j, after)) return Vec2{};
+    return limited(here - before, after - here);
+  };
+  return {slope(1, 0), slope(0, 1)};
+}
 
 bool NormalPyramid::gather_level(int level, const Footprint& footprint, const WeightPyramid& weights, float part,
                                  std::uint32_t& count, NormalMixtures& out) const {
@@ -34,18 +74,23 @@ bool NormalPyramid::gather_level(int level, const Footprint& footprint, const We
   out.make_room(count + texels.most() * gaussians);
   const std::uint8_t *weight_row = nullptr, *normal_row = nullptr;
   float total = 0;
-  const auto row = [&](int y) { weight_row = weights.row(level, y).data(), normal_row = texel(level, 0, y); };
-  texels.for_each(row, [&](int x, float overlapped) {
+  int row_index = 0;
+  const auto row = [&](int y) {
+    row_index = y, weight_row = weights.row(level, y).data(), normal_row = texel(level, 0, y);
+  };
+  texels.for_each(row, [&](int x, const TexelPart& texel_part) {
     const std::uint8_t* own = weight_row + static_cast<std::size_t>(x) * stride;  // coverage, then weights
     if (own[0] == 0) return;
-    const float area = overlapped * static_cast<float>(own[0]);
+    const float area = texel_part.area * static_cast<float>(own[0]);
     total += area;
     const std::uint8_t* bytes = normal_row + static_cast<std::size_t>(x) * texel_bytes(level);
     for (int g = 0; g < gaussians; ++g, bytes += 7 + basis_) {
       const std::uint8_t* parts = level == 0 ? own + 1 : bytes + 7;
       const float share = level == 0 ? area : area * static_cast<float>(bytes[6]) * (1.0f / 255);
       if (share == 0) continue;
-      set(unpack(packed_at(bytes)), count, out);
+      NormalGaussian normals = unpack(packed_at(bytes));
+      if (level == 0 && !texel_part.whole()) cut(texel_part, slope_at(weights, x, row_index), normals);
+      set(normals, count, out);
       for (int i = 0; i < basis_; ++i) out.weights[i][count] = share * static_cast<float>(parts[i]);
       ++count;
     }

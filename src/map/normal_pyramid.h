@@ -48,6 +48,11 @@ inline NormalGaussian unpack(const PackedNormals& packed) {
 class FootprintTexels;
 struct GatherPlan;
 
+/// How the mean normal changes across a texel of the base, along its columns and rows.
+struct NormalSlope {
+  Vec2 along_x, along_y;
+};
+
 class NormalPyramid {
  public:
   /// Gaussians a texel: one at the base, this many on every other level.
@@ -92,6 +97,7 @@ class NormalPyramid {
                     std::uint32_t& count, NormalMixtures& out) const;
   void gather_one(const Footprint& footprint, bool usable, const GatherPlan& plan, const WeightPyramid& weights,
                   NormalMixtures& out) const;
+  NormalSlope slope_at(const WeightPyramid& weights, int x, int y) const;
   void prefetch(int level, const FootprintTexels& texels, const WeightPyramid& weights) const;
   std::uint8_t* texel(int level, int x, int y) {
     const Level& l = levels_[level];

@@ -23,14 +23,15 @@ void gather_level(const WeightPyramid& tangents, int level, const Footprint& foo
   const float steps[] = {tangents.scales()[0] / 255, tangents.scales()[1] / 255};
   float total = 0;
   const auto row = [&](int y) { texel_row = tangents.row(level, y).data(); };
-  FootprintTexels(footprint, tangents.extent(level), tangents.wraps_u()).for_each(row, [&](int x, float area) {
-    const std::uint8_t* texel = texel_row + static_cast<std::size_t>(x) * tangents.texel_stride();
-    if (texel[0] == 0) return;
-    const float moments[] = {steps[0] * static_cast<float>(texel[1]), steps[1] * static_cast<float>(texel[2])};
-    const float weight = area * static_cast<float>(texel[0]);
-    for (const Vec2 turn : turns_of(moments)) out.push_back({std::atan2(turn.y, turn.x), weight});
-    total += weight;
-  });
+  FootprintTexels(footprint, tangents.extent(level), tangents.wraps_u())
+      .for_each(row, [&](int x, const TexelPart& part_of) {
+        const std::uint8_t* texel = texel_row + static_cast<std::size_t>(x) * tangents.texel_stride();
+        if (texel[0] == 0) return;
+        const float moments[] = {steps[0] * static_cast<float>(texel[1]), steps[1] * static_cast<float>(texel[2])};
+        const float weight = part_of.area * static_cast<float>(texel[0]);
+        for (const Vec2 turn : turns_of(moments)) out.push_back({std::atan2(turn.y, turn.x), weight});
+        total += weight;
+      });
   for (std::size_t i = before; i < out.size(); ++i) out[i].weight *= part / (2 * total);
 }
 
