@@ -122,6 +122,34 @@ TEST(NormalPyramid, MomentsOverAFootprint_AreThoseOfItsTexels_WithTheirWeights) 
   }
 }
 
+TEST(NormalPyramid, TexelsThatAreCut_GiveTheNormalsOfTheirPart_UnlessAnEdgeIsThere) {
+  const auto mean_of = [](const NormalMixtures& m) {
+    float sum = 0, weight = 0;
+    for (std::uint32_t k = 0; k < m.first[1]; ++k) sum += m.weights[0][k] * m.x[k], weight += m.weights[0][k];
+    return sum / weight;
+  };
+  // A ramp: its value anywhere is known, not only at the middle of texels.
+  const Planted ramp = plant(
+      {64, 64},
+      [](int x, int) {
+        return Vec2{0.01f * (static_cast<float>(x) - 32), 0};
+      },
+      [](int, int) { return 1.0f; });
+  for (const float middle : {20.0f, 20.2f, 20.5f, 20.9f}) {
+    const NormalMixtures m = gather(ramp, {{middle / 64, 0.5f}, {1.4f / 64, 0}, {0, 2.0f / 64}});
+    EXPECT_NEAR(mean_of(m), 0.01f * (middle - 32.5f), 5e-4f) << middle;
+  }
+  // A step: both sides stay what they are.
+  const Planted step = plant(
+      {64, 64},
+      [](int x, int) {
+        return Vec2{x < 32 ? -0.3f : 0.3f, 0};
+      },
+      [](int, int) { return 1.0f; });
+  const NormalMixtures m = gather(step, {{32.2f / 64, 0.5f}, {1.4f / 64, 0}, {0, 2.0f / 64}});
+  for (std::uint32_t k = 0; k < m.first[1]; ++k) EXPECT_NEAR(std::abs(m.x[k]), 0.3f, 1e-3f);
+}
+
 TEST(NormalPyramid, TwoDirections_StayApart_WhereOneGaussianWouldMixThem) {
   const Planted p = plant(
       {64, 64},
