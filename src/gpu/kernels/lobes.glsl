@@ -8,8 +8,8 @@ const float redmap_shortest_half = 0.05;
 const float redmap_least_facing = 0.1;
 const float redmap_least_z = 0.1;
 const float redmap_largest_scale = 2.0;
-const float redmap_corrected_up_to = 0.04;
-const float redmap_calibrated_from = 0.15;
+const float redmap_corrected_up_to = 0.08;
+const float redmap_calibrated_from = 0.12;
 
 // The record of a basis reflectance: narrowest highlight, whether it is to be trusted, how many widths; the widths.
 uint redmap_model(uint b) { return REDMAP_BASIS * redmap_place_floats + b * redmap_model_floats; }

@@ -76,6 +76,53 @@ uint redmap_normals_at(RedmapPatch patch_, int column, int row) {
   return redmap_data[redmap_normals_first + patch_.level] + size * uint(row * patch_.extent.x + column);
 }
 
+// Mean normal of a texel of the base; false where nothing is covered, whose bytes are zero.
+bool redmap_mean_at(ivec2 place, out vec2 mean) {
+  ivec2 extent = ivec2(redmap_map.xy);
+  mean = vec2(0.0);
+  if (REDMAP_WRAPS != 0) place.x = (place.x + extent.x) % extent.x;
+  if (place.x < 0 || place.x >= extent.x || place.y < 0 || place.y >= extent.y) return false;
+  uint at = redmap_data[redmap_normals_first] + 6u * uint(place.y * extent.x + place.x);
+  uint b1 = redmap_byte(at + 1u), x = redmap_byte(at) | (b1 & 15u) << 8u, y = b1 >> 4u | redmap_byte(at + 2u) << 4u;
+  mean = (vec2(float(int(x)), float(int(y))) - 2048.0) / 2047.0;
+  return x != 0u;
+}
+// The smaller of two differences where they have the same sign: an edge is no slope.
+float redmap_limited(float a, float b) { return a * b <= 0.0 ? 0.0 : abs(a) < abs(b) ? a : b; }
+vec2 redmap_slope(ivec2 place, ivec2 along) {
+  vec2 before, here, after;
+  if (!redmap_mean_at(place - along, before) || !redmap_mean_at(place, here) || !redmap_mean_at(place + along, after))
+    return vec2(0.0);
+  return vec2(redmap_limited(here.x - before.x, after.x - here.x), redmap_limited(here.y - before.y, after.y - here.y));
+}
+// What an interval of half-length `reach` around `a` has in [-1/2, 1/2]: where its middle went, and what was taken off
+// the square of its length.
+vec2 redmap_cut_interval(float a, float reach) {
+  float low = max(a - reach, -0.5), high = min(a + reach, 0.5);
+  float part = (high - low) / (2.0 * reach);
+  return vec2(0.5 * (low + high) - a, 1.0 - part * part);
+}
+// The normals of the part of a texel of the base that a footprint has.
+RedmapNormals redmap_cut(RedmapNormals normals, RedmapPatch patch_, ivec2 place, int column) {
+  vec2 offset = vec2(place) + 0.5 - patch_.centre;
+  vec2 a = redmap_cut_interval(dot(patch_.to_a, offset), patch_.half_a);
+  vec2 b = redmap_cut_interval(dot(patch_.to_b, offset), patch_.half_b);
+  if (patch_.level > 0u || (a.y <= 0.0 && b.y <= 0.0)) return normals;
+  // The footprint's sides, in texels.
+  float determinant = patch_.to_a.x * patch_.to_b.y - patch_.to_a.y * patch_.to_b.x;
+  vec2 dx = vec2(patch_.to_b.y, -patch_.to_b.x) / determinant, dy = vec2(-patch_.to_a.y, patch_.to_a.x) / determinant;
+  vec2 middle = dx * a.x + dy * b.x;
+  vec2 across = redmap_slope(ivec2(column, place.y), ivec2(1, 0)), up = redmap_slope(ivec2(column, place.y), ivec2(0, 1));
+  normals.mean += across * middle.x + up * middle.y;
+  vec3 linear = vec3(across.x * across.x + up.x * up.x, across.x * across.y + up.x * up.y,
+                     across.y * across.y + up.y * up.y) / 12.0;
+  float most = min(1.0, min(normals.covariance.x / max(linear.x, 1e-12), normals.covariance.z / max(linear.z, 1e-12)));
+  normals.covariance -= 0.5 * (a.y + b.y) * most * linear;
+  float bound = sqrt(max(0.0, normals.covariance.x * normals.covariance.z));
+  normals.covariance.y = clamp(normals.covariance.y, -bound, bound);
+  return normals;
+}
+
 // Area that is covered, weighted by coverage.
 float redmap_covered(RedmapPatch patch_) {
   float total = 0.0;

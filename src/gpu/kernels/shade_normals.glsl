@@ -65,7 +65,9 @@ void redmap_ask_patch(RedmapPatch redmap_p, float redmap_part_, inout RedmapQues
         float redmap_own = redmap_p.level == 0u ? redmap_t.channels[redmap_b / 4u][redmap_b % 4u]
                                                 : redmap_coverage(redmap_t) * float(redmap_byte(redmap_at + 6u)) *
                                                       float(redmap_byte(redmap_at + 7u + redmap_b)) / 65025.0;
-        RedmapNormals redmap_d = redmap_seen_normals(redmap_unpack(redmap_at), redmap_q.turned, redmap_q.turn);
+        RedmapNormals redmap_d = redmap_seen_normals(
+            redmap_cut(redmap_unpack(redmap_at), redmap_p, ivec2(redmap_x, redmap_y), redmap_column), redmap_q.turned,
+            redmap_q.turn);
         redmap_ask(redmap_d, redmap_scale * redmap_w * redmap_own, redmap_q, redmap_s);
         redmap_at += 7u + REDMAP_BASIS;
       }
