@@ -220,9 +220,8 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scen
     if (i >= maps.size() || !maps[i])
       throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
     require_map_of(object, *maps[i]);
-    if (maps[i]->hides_frames || !maps[i]->tangents.empty())
-      throw Error("object '{}': expected a map without turning grains and hidden frames: render it without --device",
-                  object.name);
+    if (!maps[i]->tangents.empty())
+      throw Error("object '{}': expected a map without turning grains: render it without --device", object.name);
     if (maps[i]->verdict == MapVerdict::kDoesNotReduce)
       side = kFallbackSide;
     else

@@ -95,6 +95,7 @@ void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTrait
   traits.has_coverage = !is_covered(map.weights);
   traits.wraps_u = map.weights.wraps_u();
   traits.has_normals = !map.normals.empty();
+  traits.hides_frames = map.hides_frames;
   // Under mixtures of normals the CPU asks the atlas alone (render/map_shading.cpp).
   traits.leaves = map.normals.empty() ? map.clusters.leaves() : 0;
   const Seams* seams = surface.seams();
@@ -143,9 +144,12 @@ LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map
 
 std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surface, const ObjectTraits& traits) {
   Words words;
-  for (const BasisPlace& place : map.basis) {
+  const std::vector<Frame> frames = basis_frames(map);
+  for (std::size_t b = 0; b < map.basis.size(); ++b) {
+    const BasisPlace& place = map.basis[b];
     append(place.position, words), append(place.normal, words), append(place.tangent, words);
     append(place.uv.x, words), append(place.uv.y, words), append(0.0f, words);
+    if (!frames.empty()) append(frames[b].x, words), append(frames[b].z, words);
   }
   for (std::size_t b = 0; b < map.basis.size(); ++b) append_model(model_of(map, b), traits.widths, words);
   for (const Vec2 point : gaussian_points()) append(point.x, words), append(point.y, words);

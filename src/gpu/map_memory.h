@@ -18,8 +18,9 @@ void set_map_block(const ReductionMap& map, ObjectBlock& block);
 /// Weights, four to a layer, multiplied by coverage where there is any; coverage follows the last.
 LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map);
 
-/// Places of the basis, lobe models, drawn normals and, where the map has them, bytes of normals, or else clusters and
-/// seams of the surface, as kernels/place.glsl, lobes.glsl, normals.glsl, clusters.glsl and seams.glsl lay them out.
+/// Places of the basis and their frames, lobe models, drawn normals and, where the map has them, bytes of normals, or
+/// else clusters and seams of the surface, as kernels/place.glsl, lobes.glsl, normals.glsl, clusters.glsl and
+/// seams.glsl lay them out.
 std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surface, const ObjectTraits& traits);
 
 }  // namespace redmap

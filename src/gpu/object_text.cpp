@@ -19,6 +19,7 @@ std::string definitions(const ShaderInfo& info, const ObjectTraits& traits) {
   lines += fmt::format("#define REDMAP_WRAPS {}\n#define REDMAP_WIDTHS {}\n", traits.wraps_u ? 1 : 0, traits.widths);
   lines += fmt::format("#define REDMAP_LEAVES {}\n", traits.leaves);
   if (traits.mends_seams) lines += "#define REDMAP_MENDS\n";
+  if (traits.hides_frames) lines += "#define REDMAP_HIDES_FRAMES\n";
   if (traits.shadows) lines += "#define REDMAP_SHADOWS\n";
   if (traits.draws_normals) lines += "#define REDMAP_DRAWS_NORMALS\n";
   if (!info.file.empty()) lines += "#define REDMAP_GUARDED\n";

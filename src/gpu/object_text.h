@@ -19,6 +19,7 @@ struct ObjectTraits {
   bool has_coverage = false;  ///< the map's texels have a coverage that is not 1 everywhere
   bool wraps_u = false;
   bool has_normals = false;    ///< the map holds normals
+  bool hides_frames = false;   ///< the basis is asked in frames that the shader hides
   bool draws_normals = false;  ///< no lobe model fits some basis reflectance
   int widths = 1;              ///< most Gaussians of a lobe model
   std::size_t leaves = 0;      ///< of the map's clusters, where they are used

@@ -203,6 +203,25 @@ TEST(DeviceRenderer, WhatItDoesNotTake_IsOneLine) {
   EXPECT_NE(refused(by(Method::kOriginal), {}).find("lets light through"), std::string::npos);
 }
 
+TEST(DeviceRenderer, BlackBoxThatHidesItsNormals_LooksAsOnTheCpu) {
+  const TemporaryFolder folder;
+  const auto file = folder / "bumps.glsl";
+  std::ofstream(file) << "struct Parameters {\n  float bumps;  // 9 [1, 50]: bumps\n};\n"
+                         "vec3 radiance(Surface at, Parameters p, vec3 to_light, vec3 to_viewer) {\n"
+                         "  vec3 n = normalize(at.normal + 0.3 * sin(p.bumps * at.position.yzx));\n"
+                         "  float shine = pow(max(dot(n, normalize(to_light + to_viewer)), 0.0), 30.0);\n"
+                         "  return (vec3(0.2, 0.1, 0.05) + 0.4 * shine) * max(dot(n, to_light), 0.0);\n}\n";
+  Scene scene = ball_scene(make_user_shader(file, "bumps.glsl"));
+  scene.lights = {lamp({3, 3, 5}, 60)};
+  ObjectData data;
+  data.map = baked(scene.objects[0], 64);
+  ASSERT_TRUE(data.map->hides_frames);
+  RenderOptions options;
+  options.method = Method::kMap;
+  const Image expected = Renderer(scene, options, {data}).render(scene, 1).image;
+  EXPECT_LT(compare_images(on_device(scene, by(Method::kMap), {data.map}), expected).mean_error, 1e-3);
+}
+
 TEST(DeviceRenderer, ShaderThatDoesNotEnd_IsNamed) {
   const TemporaryFolder folder;
   const auto file = folder / "endless.glsl";

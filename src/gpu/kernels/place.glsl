@@ -26,12 +26,24 @@ layout(std430, binding = 7) readonly buffer RedmapData { uint redmap_data[]; };
 float redmap_number(uint i) { return uintBitsToFloat(redmap_data[i]); }
 vec3 redmap_vector(uint i) { return vec3(redmap_number(i), redmap_number(i + 1u), redmap_number(i + 2u)); }
 
+#ifdef REDMAP_HIDES_FRAMES
+const uint redmap_place_floats = 18u;
+#else
 const uint redmap_place_floats = 12u;
+#endif
 Surface redmap_basis_place(uint b) {
   uint i = b * redmap_place_floats;
   return Surface(redmap_vector(i), redmap_vector(i + 3u), redmap_vector(i + 6u),
                  vec2(redmap_number(i + 9u), redmap_number(i + 10u)), redmap_eye.w);
 }
+#ifdef REDMAP_HIDES_FRAMES
+// From the frame that a basis reflectance is asked in to the shader's own.
+vec3 redmap_unhidden(uint b, vec3 v) {
+  uint i = b * redmap_place_floats + 12u;
+  vec3 x = redmap_vector(i), z = redmap_vector(i + 3u);
+  return x * v.x + cross(z, x) * v.y + z * v.z;
+}
+#endif
 Surface redmap_hit_place(RedmapHit hit) {
   return Surface(hit.position, hit.normal, hit.tangent, hit.uv, redmap_eye.w);
 }

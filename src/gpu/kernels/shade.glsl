@@ -22,6 +22,10 @@ void redmap_bind(uint redmap_b) {
 }
 
 vec3 redmap_of_basis(uint redmap_b, vec3 redmap_l, vec3 redmap_v) {
+#ifdef REDMAP_HIDES_FRAMES
+  redmap_l = redmap_unhidden(redmap_b, redmap_l);
+  redmap_v = redmap_unhidden(redmap_b, redmap_v);
+#endif
 #ifdef REDMAP_BLACK_BOX
   RedmapPlace redmap_m = redmap_patterns[redmap_b];
   vec3 redmap_value = radiance(redmap_m.at, redmap_parameters, redmap_to_object(redmap_m, redmap_l),
