@@ -17,7 +17,7 @@ struct ReflectanceVectors {
   std::span<const float> values;
   int rows = 0;
   std::size_t size() const { return rows ? values.size() / rows : 0; }
-  const float* operator[](std::size_t i) const { return values.data() + i * rows; }
+  const float* operator[](std::size_t i) const { return values.data() + i * static_cast<std::size_t>(rows); }
 };
 
 using BasisWeights = std::array<float, kMaxUnknowns>;
@@ -42,7 +42,7 @@ class ReflectanceBasis {
  private:
   int rows_, size_ = 0;
   std::vector<float> vectors_;
-  std::array<double, kMaxUnknowns * kMaxUnknowns> gram_{};
+  std::array<double, std::size_t{kMaxUnknowns} * kMaxUnknowns> gram_{};
 };
 
 struct BasisChoice {

@@ -174,8 +174,8 @@ WeightPyramid read_tangents(Imf::MultiPartInputFile& file, const MapDescription&
     for (int y = 0; y < tangents.extent(level).height; ++y) {
       const auto from = weights.row(level, y);
       const auto to = tangents.row(level, y);
-      for (int x = 0; x < tangents.extent(level).width; ++x)
-        to[x * tangents.texel_stride()] = from[x * weights.texel_stride()];
+      const std::size_t width = tangents.extent(level).width;
+      for (std::size_t x = 0; x < width; ++x) to[x * tangents.texel_stride()] = from[x * weights.texel_stride()];
     }
   tangents.pad_rows();
   return tangents;

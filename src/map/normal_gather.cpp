@@ -46,10 +46,10 @@ void cut(const TexelPart& part, const NormalSlope& slope, NormalGaussian& normal
 }  // namespace
 
 NormalSlope NormalPyramid::slope_at(const WeightPyramid& weights, int x, int y) const {
-  const auto [width, height] = extent(0);
+  const Extent base = extent(0);
   const auto mean = [&](int i, int j, Vec2& value) {
-    if (weights.wraps_u()) i = (i + width) % width;
-    if (i < 0 || i >= width || j < 0 || j >= height ||
+    if (weights.wraps_u()) i = (i + base.width) % base.width;
+    if (i < 0 || i >= base.width || j < 0 || j >= base.height ||
         weights.row(0, j)[static_cast<std::size_t>(i) * weights.texel_stride()] == 0)
       return false;
     const std::uint8_t* b = texel(0, i, j);

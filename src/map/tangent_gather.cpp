@@ -39,13 +39,13 @@ void gather_level(const WeightPyramid& tangents, int level, const Footprint& foo
 void order_by_angle(std::vector<WeightedTurn>& turns) {
   // A grain has no direction: half a turn is none.
   for (WeightedTurn& t : turns) t.angle -= kPi * std::floor(t.angle / kPi);
-  std::ranges::sort(turns, {}, &WeightedTurn::angle);
+  std::sort(turns.begin(), turns.end(), [](const WeightedTurn& a, const WeightedTurn& b) { return a.angle < b.angle; });
   std::size_t first = 0;
   float widest = turns.front().angle + kPi - turns.back().angle;
   for (std::size_t i = 1; i < turns.size(); ++i)
     if (const float gap = turns[i].angle - turns[i - 1].angle; gap > widest) widest = gap, first = i;
   for (std::size_t i = 0; i < first; ++i) turns[i].angle += kPi;
-  std::ranges::rotate(turns, turns.begin() + static_cast<std::ptrdiff_t>(first));
+  std::rotate(turns.begin(), turns.begin() + static_cast<std::ptrdiff_t>(first), turns.end());
 }
 
 GatheredTurns quantiles(std::vector<WeightedTurn>& turns) {
