@@ -13,6 +13,7 @@
 #include "gpu/frame_times.h"
 #include "gpu/parity.h"
 #include "machine.h"
+#include "quality/bench_scene.h"
 
 namespace redmap::cli {
 
@@ -23,6 +24,7 @@ struct BenchGpuOptions {
   std::string device;
   std::vector<std::string> parts{"rows", "bake", "parity"};
   bench::FrameTimeOptions frames;
+  std::string parity_object = "sphere";
   bench::ParityOptions parity;
   bench::BakeRowOptions bake;
 };
@@ -67,7 +69,8 @@ nlohmann::json bake_rows(const BenchGpuOptions& options) {
 nlohmann::json parity_rows(const BenchGpuOptions& options) {
   nlohmann::json json = nlohmann::json::array();
   fmt::print("{:<18} {:>8} {:>9} {:>9}\n", "shader", "distance", "rmse", "largest");
-  for (const bench::ParityRow& row : bench::measure_parity(options.parity)) {
+  const auto surface = bench::make_bench_surface(options.parity_object, options.bake.models);
+  for (const bench::ParityRow& row : bench::measure_parity(surface, options.parity)) {
     fmt::print("{:<18} {:>8.1f} {:>9.6f} {:>9.4f}\n", row.shader, row.distance, row.rmse, row.max_error);
     json.push_back({{"shader", row.shader}, {"distance", row.distance}, {"rmse", row.rmse}});
   }
@@ -76,7 +79,6 @@ nlohmann::json parity_rows(const BenchGpuOptions& options) {
 
 void run_bench_gpu(BenchGpuOptions& options) {
   const ThreadLimit threads(static_cast<std::size_t>(options.common.threads));
-  options.bake.models = options.parity.models;
   const DeviceInfo device = Device::open(options.device)->info();
   options.frames.device = options.parity.device = options.bake.device = options.device;
   std::optional<Progress> progress(std::in_place, "measuring");
@@ -120,7 +122,7 @@ void add_bench_gpu(CLI::App& bench_app) {
   sub->add_option("--frames", options->frames.frames, "Frames to take the median of")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  sub->add_option("--parity-object", options->parity.object, "sphere, cylinder, bunny, dragon")->capture_default_str();
+  sub->add_option("--parity-object", options->parity_object, "sphere, cylinder, bunny, dragon")->capture_default_str();
   sub->add_option("--parity-size", options->parity.map_size, "Texels across a map of the parity")
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
@@ -132,7 +134,7 @@ void add_bench_gpu(CLI::App& bench_app) {
       ->check(CLI::Range(1, 16384))
       ->capture_default_str();
   sub->add_option("--bake-object", options->bake.object, "sphere, cylinder, bunny, dragon")->capture_default_str();
-  sub->add_option("--models", options->parity.models, "Folder of bunny_10k.obj and dragon_20k.obj")
+  sub->add_option("--models", options->bake.models, "Folder of bunny_10k.obj and dragon_20k.obj")
       ->capture_default_str();
   add_device_option(*sub, options->device);
   add_common_options(*sub, options->common);

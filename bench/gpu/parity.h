@@ -1,24 +1,23 @@
 // Whether a device renders what the CPU does.
 #pragma once
 
-#include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "scene/method.h"
+#include "surface/surface.h"
 
 namespace redmap::bench {
 
 struct ParityOptions {
   std::string device;                                 ///< as in Device::open()
-  std::string object = "sphere";                      ///< as in make_bench_surface()
   std::vector<std::string> shaders;                   ///< of the library; empty: all that a device takes
   std::vector<double> distances{0.4, 0.8, 2, 6, 20};  ///< texels across a pixel: from the shader itself to far away
   int map_size = 256;
   int pixels = 96;  ///< of a picture's side, at most
   Method method = Method::kMap;
-  std::filesystem::path models = "models";
   std::function<void(double)> progress;  ///< told the part done
   std::function<bool()> cancelled;
 };
@@ -34,6 +33,6 @@ struct ParityRow {
 std::vector<std::string> device_shaders();
 
 /// Bakes and renders the same on the CPU and on the device.
-std::vector<ParityRow> measure_parity(const ParityOptions& options);
+std::vector<ParityRow> measure_parity(const std::shared_ptr<const Surface>& surface, const ParityOptions& options);
 
 }  // namespace redmap::bench

@@ -62,8 +62,7 @@ std::shared_ptr<const Surface> make_bench_surface(const std::string& object, con
   const auto file = kFiles.find(object);
   if (file == kFiles.end()) throw Error("there is no object '{}': expected sphere, cylinder, bunny or dragon", object);
   const std::filesystem::path path = models / file->second;
-  if (!std::filesystem::exists(path))
-    throw Error("{}: no such file; scripts/models/fetch_models.sh makes it", path.string());
+  if (!std::filesystem::exists(path)) throw Error("{}: no such file; scripts/fetch_models.sh makes it", path.string());
   TriangleMesh mesh = read_mesh(path);
   if (mesh.uv.empty()) unwrap_cached(mesh, models);
   if (mesh.normals.empty()) compute_normals(mesh);
