@@ -4,13 +4,14 @@
 
 #include "gpu/frame_blocks.h"
 #include "gpu/kernel_texts.h"
+#include "gpu/limits_text.h"
 #include "user_shader/stages.h"
 
 namespace redmap {
 namespace {
 
 std::string head(SurfaceKind surface) {
-  return fmt::format("#version 450\n#define REDMAP_SURFACE {}\n", static_cast<int>(surface));
+  return fmt::format("#version 450\n#define REDMAP_SURFACE {}\n", static_cast<int>(surface)) + limits_text();
 }
 
 std::string definitions(const ShaderInfo& info, const ObjectTraits& traits) {

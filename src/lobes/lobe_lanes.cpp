@@ -11,21 +11,9 @@ namespace {
 using lanes::Bool;
 using lanes::Float;
 
-/// Below this the light shines from behind the viewer's back and there is no half vector worth the name.
-constexpr float kShortestHalf = 0.05f;
-/// Distributions whose mean leans farther from the half vector see no highlight.
-constexpr float kLeastFacing = 0.1f;
-/// The z of mean normals is at least this: nothing is seen of steeper ones.
-constexpr float kLeastZ = 0.1f;
 /// A highlight is as narrow as the Gaussians that make up this part of its peak.
 constexpr float kNarrowPart = 0.25f;
 constexpr float kDegrees = 57.2957795f;
-/// A fit that is off by more is better left as it is.
-constexpr float kLargestScale = 2;
-/// Parts of the radiance that the spread of normals may change before the mean normal says little about the highlight.
-/// An error of a tenth of the model is about 1/255 there. Between the two both are asked, which is a call more: of the
-/// lookups 6 % (16 % from .04 to .15, for half a percent less error).
-constexpr float kCorrectedUpTo = 0.08f, kCalibratedFrom = 0.12f;
 
 Float dot(const Vec3Lanes& a, const Vec3Lanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec3Lanes scaled(const Vec3Lanes& a, Float s) { return {a.x * s, a.y * s, a.z * s}; }
@@ -73,7 +61,7 @@ Float product(const Row& a, const NormalLanes& n, const Row& b) {
 }
 
 Vec3Lanes mean_normal(const NormalLanes& n) {
-  return {n.x, n.y, lanes::sqrt(lanes::max(1.0f - n.x * n.x - n.y * n.y, kLeastZ * kLeastZ))};
+  return {n.x, n.y, lanes::sqrt(lanes::max(1.0f - n.x * n.x - n.y * n.y, kLeastMeanZ * kLeastMeanZ))};
 }
 
 PlaneGaussian project(const HalfVectorLanes& half, const NormalLanes& normals, const Vec3Lanes& mean) {
@@ -191,7 +179,7 @@ void add_distribution(const WidthsInUse& in_use, const LobeLanes& lobes, const H
   sums.weight += weight, sums.x += weight * normals.x, sums.y += weight * normals.y;
 
   // Normals spread around their mean shorten it: their z falls short of the mean's own.
-  const Float shorter = lanes::sqrt(lanes::max(mean.z * mean.z - normals.xx - normals.yy, kLeastZ * kLeastZ));
+  const Float shorter = lanes::sqrt(lanes::max(mean.z * mean.z - normals.xx - normals.yy, kLeastMeanZ * kLeastMeanZ));
   const Row light = row_of(half.to_light, mean);
   const Float facing = half.to_light.x * normals.x + half.to_light.y * normals.y + half.to_light.z * shorter;
   sums.cosine += weight * expected_positive(facing, product(light, normals, light));

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "base/lanes.h"
+#include "lobes/lobe_limits.h"
 #include "lobes/lobe_model.h"
 
 namespace redmap {
@@ -42,10 +43,6 @@ inline constexpr float kTrustedError = 0.2f;
 inline constexpr float kNarrowestUnknown = 0.1f;
 /// narrowest_width(), or kNarrowestUnknown.
 float narrowest_highlight(const LobeModel& model);
-
-/// Spreads of normals, in parts of the narrowest highlight, over which they come to count: a highlight changes by 1/200
-/// at the first, and little by little, so that nothing pops.
-inline constexpr float kSpreadBegin = 0.07f, kSpreadEnd = 0.12f;
 
 /// A model at some angle. Amplitudes of widths that are not in use may be anything.
 struct LobeLanes {

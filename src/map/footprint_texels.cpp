@@ -1,19 +1,13 @@
 #include "map/footprint_texels.h"
+#include "map/lookup_limits.h"
 
 namespace redmap {
 namespace {
 
-/// Footprints longer than this are widened: the texels of a lookup stay few.
-constexpr float kMaxAnisotropy = 6;
-/// And narrower ones than this part of a base texel too.
-constexpr float kLeastWidth = 0.5f;
-/// From this part of the way between two levels on they are mixed, so that nothing pops.
-constexpr float kBlendFrom = 0.6f;
-
 /// The footprint, or if it is too narrow a box along its axes. Its shorter side in base texels goes to `width`.
 Footprint widened(const Footprint& footprint, Extent extent, float& width) {
   const FootprintAxes axes = footprint_axes(footprint, extent);
-  width = std::max({axes.minor, axes.major / kMaxAnisotropy, kLeastWidth});
+  width = std::max({axes.minor, axes.major / kGatherAnisotropy, kGatherLeastWidth});
   if (width <= axes.minor) return footprint;
   const float columns = static_cast<float>(extent.width), rows = static_cast<float>(extent.height);
   const float major = std::max(axes.major, width);
@@ -38,7 +32,7 @@ GatherPlan plan_gather(const Footprint& footprint, Extent extent, int levels, fl
   const float position = std::clamp(std::log2(std::max(width / texels, 1.0f)), 0.0f, static_cast<float>(levels - 1));
   plan.level = std::min(static_cast<int>(position), std::max(0, levels - 2));
   plan.coarse_part =
-      std::clamp((position - static_cast<float>(plan.level) - kBlendFrom) / (1 - kBlendFrom), 0.0f, 1.0f);
+      std::clamp((position - static_cast<float>(plan.level) - kGatherBlendFrom) / (1 - kGatherBlendFrom), 0.0f, 1.0f);
   return plan;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/lanes_math.h"
+#include "map/lookup_limits.h"
 #include "map/pyramid.h"
 
 namespace redmap {
@@ -12,18 +13,6 @@ namespace {
 
 using lanes::Float;
 using lanes::Int;
-
-/// Footprints longer than this are widened instead: 16 is what texture hardware does, and beyond it errors no longer
-/// fall.
-constexpr float kMaxAnisotropy = 16;
-/// Distance of two taps in texels of their level, at most: with the tent and box of a tap, 1.5 leaves no ripple that
-/// shows.
-constexpr float kTapSpacing = 1.5f;
-/// A bilinear tap on box-filtered texels of width c has variance c^2 / 12 + c^2 / 6 = c^2 / 4; a box of width m has
-/// m^2 / 12. They match at c = m / sqrt 3.
-constexpr float kTexelPerMinor = 0.57735027f;
-/// Taps that kMaxAnisotropy and kTapSpacing lead to at most: 16 sqrt 3 / 1.5 + .5, rounded up.
-constexpr float kMaxTaps = 19;
 
 struct Vec2Lanes {
   Float x, y;
@@ -94,7 +83,7 @@ struct PlanLanes {
 
 PlanLanes plan_variance_matched(const FootprintLanes& footprint, Extent extent, int levels) {
   const AxesLanes axes = axes_of(footprint, extent);
-  const Float texel = lanes::max(kTexelPerMinor * lanes::max(axes.minor, axes.major * (1 / kMaxAnisotropy)), 1.0f);
+  const Float texel = lanes::max(kTexelPerMinor * lanes::max(axes.minor, axes.major * (1 / kLookupAnisotropy)), 1.0f);
 
   // What the tap's own width leaves of the major axis is covered by n taps: variance h^2 (n^2 - 1) / 12 = rest^2 / 12.
   const Float rest = lanes::sqrt(lanes::max(axes.major * axes.major - 3.0f * texel * texel, 0.0f));

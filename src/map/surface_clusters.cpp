@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "map/lookup_limits.h"
 
 namespace redmap {
 namespace {
@@ -68,16 +69,15 @@ class FootprintKernel {
     // A box has variance width^2 / 12. Along the normal it is as wide as its longer side: what is farther away is
     // another part of the surface.
     const float longer = std::max(dot(f.axis_x, f.axis_x), dot(f.axis_y, f.axis_y));
-    constexpr float kRound = 1e-3f;  // keeps the matrix regular where the footprint is a line
     float m[3][3];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         m[i][j] = (f.axis_x[i] * f.axis_x[j] + f.axis_y[i] * f.axis_y[j] + f.normal[i] * f.normal[j] * longer +
-                   (i == j ? kRound * longer : 0)) /
+                   (i == j ? kClusterRound * longer : 0)) /
                   12;
     largest_variance_ = (longer + dot(f.axis_x, f.axis_x) + dot(f.axis_y, f.axis_y)) / 12;
     const float area = length(cross(f.axis_x, f.axis_y));
-    smallest_variance_ = longer > 0 ? std::max(area * area / longer, kRound * longer) / 12 : 0;
+    smallest_variance_ = longer > 0 ? std::max(area * area / longer, kClusterRound * longer) / 12 : 0;
     const Vec3 rows[3] = {{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
     const float determinant = dot(rows[0], cross(rows[1], rows[2]));
     for (int i = 0; i < 3; ++i) inverse_[i] = cross(rows[(i + 1) % 3], rows[(i + 2) % 3]) / determinant;
@@ -85,7 +85,7 @@ class FootprintKernel {
 
   bool reaches(const ClusterPlace& place) const {
     const Vec3 away = place.position - centre_;
-    const float reach = std::sqrt(kSupport * largest_variance_) + place.radius;
+    const float reach = std::sqrt(kClusterSupport * largest_variance_) + place.radius;
     return dot(away, away) < reach * reach;
   }
   /// Whether a patch is small and flat enough to count as one.
@@ -97,15 +97,12 @@ class FootprintKernel {
     const Vec3 away = place.position - centre_;
     const Vec3 scaled{dot(inverse_[0], away), dot(inverse_[1], away), dot(inverse_[2], away)};
     // Flat in the middle, nil beyond the support; and a soft step from one side of the surface to the other.
-    const float near = std::max(0.0f, 1 - dot(away, scaled) / kSupport);
-    return near * std::clamp(kSideSlope * dot(normal_, place.normal), 0.0f, 1.0f);
+    const float near = std::max(0.0f, 1 - dot(away, scaled) / kClusterSupport);
+    return near * std::clamp(kClusterSideSlope * dot(normal_, place.normal), 0.0f, 1.0f);
   }
   bool is_usable() const { return std::isfinite(inverse_[0].x + inverse_[1].y + inverse_[2].z); }
 
  private:
-  /// 1 - r^2 / 6 over a disc has unit variance along each axis.
-  static constexpr float kSupport = 6;
-  static constexpr float kSideSlope = 4;
   Vec3 centre_, normal_, inverse_[3];
   float largest_variance_, smallest_variance_;
 };
@@ -114,18 +111,16 @@ class FootprintKernel {
 
 float cluster_part(const Footprint& footprint, Extent base_extent) {
   // As in the lookup in the atlas, long footprints count as wider than they are.
-  // Solid noise on the 10k bunny, footprints of 16 texels: error .021 from 8 on, .043 from 16 on.
-  constexpr float kBlendBegin = 8, kMaxAnisotropy = 16;
   // The shorter side bounds the minor axis, the diagonal the major: most footprints are decided there.
   const float columns = static_cast<float>(base_extent.width), rows = static_cast<float>(base_extent.height);
   const Vec2 x{footprint.duv_dx.x * columns, footprint.duv_dx.y * rows};
   const Vec2 y{footprint.duv_dy.x * columns, footprint.duv_dy.y * rows};
-  constexpr float kLongest = kBlendBegin * kMaxAnisotropy;
-  if (std::min(dot(x, x), dot(y, y)) <= kBlendBegin * kBlendBegin && dot(x, x) + dot(y, y) <= kLongest * kLongest)
+  constexpr float kLongest = kClustersBegin * kLookupAnisotropy;
+  if (std::min(dot(x, x), dot(y, y)) <= kClustersBegin * kClustersBegin && dot(x, x) + dot(y, y) <= kLongest * kLongest)
     return 0;
   const FootprintAxes axes = footprint_axes(footprint, base_extent);
-  const float width = std::max(axes.minor, axes.major / kMaxAnisotropy);
-  return width > kBlendBegin ? std::min(1.0f, std::log2(width / kBlendBegin)) : 0.0f;
+  const float width = std::max(axes.minor, axes.major / kLookupAnisotropy);
+  return width > kClustersBegin ? std::min(1.0f, std::log2(width / kClustersBegin)) : 0.0f;
 }
 
 SurfaceClusters::SurfaceClusters(std::vector<ClusterPlace> leaves, std::vector<float> leaf_weights, int channels)

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "lobes/gaussian_points.h"
+#include "lobes/lobe_limits.h"
 #include "render/basis_shading.h"
 
 namespace redmap {
@@ -20,7 +21,6 @@ Vec3 normal_at(const NormalMixtures& m, std::size_t k, Vec2 unit) {
   const float l11 = std::sqrt(m.xx[k]), l21 = l11 > 0 ? m.xy[k] / l11 : 0;
   const float l22 = std::sqrt(std::max(0.0f, m.yy[k] - l21 * l21));
   Vec2 xy{m.x[k] + l11 * unit.x, m.y[k] + l21 * unit.x + l22 * unit.y};
-  constexpr float kSteepest = 0.98f;
   if (const float r = length(xy); r > kSteepest) xy = xy * (kSteepest / r);
   return {xy.x, xy.y, std::sqrt(1 - dot(xy, xy))};
 }

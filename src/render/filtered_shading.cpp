@@ -1,13 +1,11 @@
 #include "render/filtered_shading.h"
+#include "map/lookup_limits.h"
 
 #include <algorithm>
 
 namespace redmap {
 
 namespace {
-
-// Footprints, in texels along the major axis, over which the shader gives way to the map.
-constexpr float kBlendBegin = 0.5f, kBlendEnd = 1.0f;
 
 void blend_into(Planes<3>& out, std::size_t i, Vec3 value, float part) {
   out.set(i, part >= 1 ? value : out.get(i) * (1 - part) + value * part);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "map/footprint.h"
+#include "map/lookup_limits.h"
 #include "scene/camera_rays.h"
 #include "surface/surface.h"
 
@@ -22,10 +23,8 @@ inline Vec2 uv_change(const SurfaceHit& hit, Vec3 dp) {
 /// object units, `extent` the sample's side in pixels.
 inline Footprint camera_footprint(const SurfaceHit& hit, Vec3 direction, const DirectionDifferential& per_pixel,
                                   float distance, float extent) {
-  // Rays that graze would reach infinitely far: stop at 1 / kMinimumCosine times the width.
-  constexpr float kMinimumCosine = 1e-3f;
   const float facing = dot(direction, hit.geometric_normal);
-  const float cosine = std::copysign(std::max(std::abs(facing), kMinimumCosine), facing);
+  const float cosine = std::copysign(std::max(std::abs(facing), kLeastCosine), facing);
   const auto project = [&](Vec3 change) {
     const Vec3 dp = change * (distance * extent);
     return uv_change(hit, dp - direction * (dot(dp, hit.geometric_normal) / cosine));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "map/lookup_limits.h"
 #include "map/tangent_gather.h"
 #include "render/basis_shading.h"
 #include "render/filtered_shading.h"
@@ -10,12 +11,6 @@
 namespace redmap {
 
 namespace {
-
-/// Footprints around which the surface turns farther than this, as a variance, are no longer one tangent plane.
-constexpr float kMaximumVariance = 0.1f;
-
-/// Texels across a footprint whose normals are gathered, at least: measured, docs/normals.md.
-constexpr float kGatheredTexels = 2;
 
 struct Covariance {
   float xx, xy, yy;
@@ -31,7 +26,7 @@ Covariance curvature(const ShadingBatch& batch, std::size_t i) {
   };
   const Vec2 x = turned(footprint.duv_dx), y = turned(footprint.duv_dy);
   const float variance = (dot(x, x) + dot(y, y)) / 12;
-  const float scale = std::min(1.0f, kMaximumVariance / std::max(variance, 1e-12f)) / 12;
+  const float scale = std::min(1.0f, kLargestTurn / std::max(variance, 1e-12f)) / 12;
   return {scale * (x.x * x.x + y.x * y.x), scale * (x.x * x.y + y.x * y.y), scale * (x.y * x.y + y.y * y.y)};
 }
 

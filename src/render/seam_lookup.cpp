@@ -1,5 +1,6 @@
 // Going straight over a seam one is in another chart: the pieces of the footprint are looked up where they come to lie.
 #include "render/seam_lookup.h"
+#include "map/lookup_limits.h"
 
 #include <array>
 #include <span>
@@ -9,13 +10,9 @@ namespace redmap {
 
 namespace {
 
-/// Pieces a side that a footprint is cut into. On the bunny, footprints of 8 texels beside seams: RMS error .0129 with
-/// one piece, .0038 with 3 x 3, .0033 with 4 x 4.
-constexpr int kPieces = 3;
-
 /// Piece (i, j) of a footprint, beyond the seam where the straight way there from the centre crosses one of `edges`.
 Footprint piece(const Footprint& f, std::span<const SeamEdge> edges, int i, int j) {
-  constexpr float kPart = 1.0f / kPieces;
+  constexpr float kPart = 1.0f / kSeamPieces;
   const auto centre = [](int k) { return (static_cast<float>(k) + 0.5f) * kPart - 0.5f; };
   const Vec2 way = f.duv_dx * centre(i) + f.duv_dy * centre(j);
   const Footprint here{f.uv + way, f.duv_dx * kPart, f.duv_dy * kPart};
@@ -41,16 +38,15 @@ FilteredTexel mean(std::span<const FilteredTexel> texels, const FilteredTexel& o
 
 FilteredTexel mend_at_seams(const WeightPyramid& weights, const Seams& seams, std::uint32_t chart,
                             const Footprint& footprint, const FilteredTexel& texel, std::uint64_t& lookups) {
-  // A twentieth that is missing moves the mean by a fortieth of the footprint; mending less of it gains nothing. Nor
-  // does it below two texels.
-  constexpr float kWhole = 0.95f, kNarrow = 2;
   const float reach = 0.5f * (length(footprint.duv_dx) + length(footprint.duv_dy));
-  if (texel.coverage >= kWhole || reach * static_cast<float>(weights.extent(0).width) < kNarrow) return texel;
+  if (texel.coverage >= kWholeCoverage || reach * static_cast<float>(weights.extent(0).width) < kLeastMendedReach)
+    return texel;
   const std::vector<SeamEdge> edges = seams.near(footprint.uv, chart, reach);
   if (edges.empty()) return texel;
-  std::array<Footprint, kPieces * kPieces> pieces;
-  for (int i = 0; i < kPieces * kPieces; ++i) pieces[i] = piece(footprint, edges, i % kPieces, i / kPieces);
-  std::array<FilteredTexel, kPieces * kPieces> looked_up;
+  std::array<Footprint, kSeamPieces * kSeamPieces> pieces;
+  for (int i = 0; i < kSeamPieces * kSeamPieces; ++i)
+    pieces[i] = piece(footprint, edges, i % kSeamPieces, i / kSeamPieces);
+  std::array<FilteredTexel, kSeamPieces * kSeamPieces> looked_up;
   weights.lookup(pieces, LookupFilter::kVarianceMatched, looked_up);
   lookups += pieces.size();
   return mean(looked_up, texel);

@@ -2,16 +2,10 @@
 // follows the drawn normals in the data, from its root on: position, normal, radius, variance, weights.
 const uint redmap_clusters_first = redmap_drawn_first + 2u * uint(redmap_drawn_normals);
 const uint redmap_cluster_floats = 8u + uint(REDMAP_BASIS);
-const float redmap_clusters_begin = 8.0;
-
-// Flat in the middle, nil beyond the support; and a soft step from one side of the surface to the other.
-const float redmap_cluster_support = 6.0;
-const float redmap_cluster_side_slope = 4.0;
-const float redmap_cluster_round = 1e-3;
 
 // The part that clusters have in a lookup.
 float redmap_cluster_part(RedmapAxes axes) {
-  float width = max(axes.minor, axes.major / redmap_most_anisotropy);
+  float width = max(axes.minor, axes.major / redmap_lookup_anisotropy);
   return width > redmap_clusters_begin ? min(1.0, log2(width / redmap_clusters_begin)) : 0.0;
 }
 

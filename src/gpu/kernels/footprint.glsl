@@ -19,15 +19,10 @@ RedmapAxes redmap_axes(vec2 duv_dx, vec2 duv_dy) {
   return RedmapAxes(major, minor, spanned / redmap_map.xy);
 }
 
-// Footprints, in texels along the major axis, over which the shader gives way to the map.
-const float redmap_blend_begin = 0.5;
-const float redmap_blend_end = 1.0;
+// The part that the map has in a sample: the rest is the shader itself.
 float redmap_part(RedmapAxes axes) {
   return clamp((axes.major - redmap_blend_begin) / (redmap_blend_end - redmap_blend_begin), 0.0, 1.0);
 }
-
-// Footprints around which the surface turns farther than this, as a variance, are no longer one tangent plane.
-const float redmap_largest_turn = 0.1;
 
 // Covariance of the interpolated normal within the footprint, a box, over the shading frame's x and y.
 vec3 redmap_curvature(RedmapHit hit) {

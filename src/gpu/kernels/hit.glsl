@@ -96,9 +96,6 @@ vec2 redmap_uv_change(RedmapHit hit, vec3 dp) {
   return vec2(vv * pu - uv * pv, uu * pv - uv * pu) / determinant;
 }
 
-// Rays that graze would reach infinitely far: they stop at 1 / this times the width.
-const float redmap_least_cosine = 1e-3;
-
 void redmap_find_footprint(vec3 unnormalised, vec3 eye, inout RedmapHit hit) {
   float extent = 1.0 / float(redmap_picture.y);
   float dd = dot(unnormalised, unnormalised), scale = inversesqrt(dd) / dd;

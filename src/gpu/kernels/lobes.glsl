@@ -4,13 +4,6 @@ const uint redmap_angle_floats = 7u + 3u * REDMAP_WIDTHS;
 const uint redmap_drawn_first = REDMAP_BASIS * (redmap_place_floats + 4u + REDMAP_WIDTHS + 9u * redmap_angle_floats);
 const uint redmap_model_floats = 4u + REDMAP_WIDTHS + 9u * redmap_angle_floats;
 
-const float redmap_shortest_half = 0.05;
-const float redmap_least_facing = 0.1;
-const float redmap_least_z = 0.1;
-const float redmap_largest_scale = 2.0;
-const float redmap_corrected_up_to = 0.08;
-const float redmap_calibrated_from = 0.12;
-
 // The record of a basis reflectance: narrowest highlight, whether it is to be trusted, how many widths; the widths.
 uint redmap_model(uint b) { return REDMAP_BASIS * redmap_place_floats + b * redmap_model_floats; }
 float redmap_width(uint b, uint k) { return redmap_number(redmap_model(b) + 4u + k); }
@@ -108,12 +101,12 @@ vec2 redmap_row_of(vec3 axis, vec3 mean) { return axis.xy - (axis.z / mean.z) * 
 void redmap_add(uint b, RedmapLobes lobes, RedmapHalf half_vector, RedmapNormals normals, float weight,
                 inout RedmapSums sums) {
   vec3 c = normals.covariance;
-  vec3 mean = vec3(normals.mean, sqrt(max(1.0 - dot(normals.mean, normals.mean), redmap_least_z * redmap_least_z)));
+  vec3 mean = vec3(normals.mean, sqrt(max(1.0 - dot(normals.mean, normals.mean), redmap_least_mean_z * redmap_least_mean_z)));
   sums.weight += weight;
   sums.mean += weight * normals.mean;
 
   // Normals spread around their mean shorten it: their z falls short of the mean's own.
-  float shorter = sqrt(max(mean.z * mean.z - c.x - c.z, redmap_least_z * redmap_least_z));
+  float shorter = sqrt(max(mean.z * mean.z - c.x - c.z, redmap_least_mean_z * redmap_least_mean_z));
   vec2 light = redmap_row_of(half_vector.to_light, mean);
   float facing = dot(half_vector.to_light, vec3(normals.mean, shorter));
   sums.cosine += weight * redmap_expected_positive(facing, redmap_product(light, c, light));
@@ -187,13 +180,7 @@ vec3 redmap_calibrated(RedmapValue whole, RedmapValue there, vec3 reflectance) {
   return whole.smooth_part + scale * whole.highlight;
 }
 
-// Spreads of normals, in parts of the narrowest highlight, over which they come to count.
-const float redmap_spread_begin = 0.07;
-const float redmap_spread_end = 0.12;
-
 // Where no model fits, normals are drawn: points of a Gaussian of variance 1, which follow the models in the data.
-const int redmap_drawn_normals = 32;
-const float redmap_steepest = 0.98;
 vec3 redmap_drawn_normal(RedmapNormals normals, int i) {
   uint at = redmap_drawn_first + 2u * uint(i);
   vec2 unit = vec2(redmap_number(at), redmap_number(at + 1u));

@@ -2,10 +2,6 @@
 // does not cover all of its texels, weights come multiplied by their coverage, which is the channel after them.
 layout(binding = 10) uniform sampler2DArray redmap_texels;
 
-const float redmap_most_anisotropy = 16.0;
-const float redmap_tap_spacing = 1.5;
-const float redmap_texel_per_minor = 0.57735027;
-const float redmap_most_taps = 19.0;
 const int redmap_layers = (REDMAP_BASIS + REDMAP_HAS_COVERAGE + 3) / 4;
 // Less than half a byte of one texel.
 const float redmap_least_coverage = 0.0019;
@@ -25,11 +21,11 @@ struct RedmapPlan {
   float taps, level;
 };
 RedmapPlan redmap_plan(vec2 uv, RedmapAxes axes) {
-  float texel = max(redmap_texel_per_minor * max(axes.minor, axes.major / redmap_most_anisotropy), 1.0);
+  float texel = max(redmap_texel_per_minor * max(axes.minor, axes.major / redmap_lookup_anisotropy), 1.0);
   float rest = sqrt(max(axes.major * axes.major - 3.0 * texel * texel, 0.0));
   bool is_long = rest > 0.5 * texel;
   float taps =
-      is_long ? clamp(ceil(rest / (redmap_tap_spacing * texel) + 0.5), 2.0, redmap_most_taps) : 1.0;
+      is_long ? clamp(ceil(rest / (redmap_tap_spacing * texel) + 0.5), 2.0, redmap_max_taps) : 1.0;
   vec2 step = is_long ? axes.major_uv * (rest / (axes.major * sqrt(taps * taps - 1.0))) : vec2(0.0);
   float level = min(float((floatBitsToInt(texel) >> 23) - 127), max(redmap_map.z - 2.0, 0.0));
   float ratio = texel * exp2(-level);

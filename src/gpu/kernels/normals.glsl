@@ -2,10 +2,6 @@
 // models in the data, after the byte at which each level starts.
 const uint redmap_normals_first = redmap_drawn_first + 2u * uint(redmap_drawn_normals);
 const uint redmap_normal_levels = 16u;
-const float redmap_gathered_texels = 2.0;
-const float redmap_normal_anisotropy = 6.0;
-const float redmap_least_width = 0.5;
-const float redmap_blend_from = 0.6;
 
 uint redmap_byte(uint at) {
   return (redmap_data[redmap_normals_first + redmap_normal_levels + (at >> 2u)] >> (8u * (at & 3u))) & 255u;
@@ -143,7 +139,7 @@ struct RedmapGather {
   vec2 part;
 };
 RedmapGather redmap_gather(RedmapHit hit, RedmapAxes axes) {
-  float width = max(max(axes.minor, axes.major / redmap_normal_anisotropy), redmap_least_width);
+  float width = max(max(axes.minor, axes.major / redmap_gather_anisotropy), redmap_gather_least_width);
   vec2 dx = hit.duv_dx, dy = hit.duv_dy;
   if (width > axes.minor) {
     vec2 along = axes.major_uv * redmap_map.xy;
@@ -153,7 +149,7 @@ RedmapGather redmap_gather(RedmapHit hit, RedmapAxes axes) {
   }
   float position = clamp(log2(max(width / redmap_gathered_texels, 1.0)), 0.0, redmap_map.z - 1.0);
   float level = min(floor(position), max(redmap_map.z - 2.0, 0.0));
-  float coarse = clamp((position - level - redmap_blend_from) / (1.0 - redmap_blend_from), 0.0, 1.0);
+  float coarse = clamp((position - level - redmap_gather_blend_from) / (1.0 - redmap_gather_blend_from), 0.0, 1.0);
   RedmapGather gather;
   gather.fine = redmap_patch(uint(level), hit.uv, dx, dy);
   gather.coarse = redmap_patch(min(uint(level) + 1u, uint(redmap_map.z) - 1u), hit.uv, dx, dy);

@@ -17,15 +17,18 @@ uint redmap_chart(uint triangle) {
 }
 vec2 redmap_pair(uint at) { return vec2(redmap_number(at), redmap_number(at + 1u)); }
 
-const float redmap_whole = 0.95, redmap_narrow = 2.0;  // coverage; texels
-const int redmap_pieces = 9;
+const int redmap_pieces = redmap_seam_pieces * redmap_seam_pieces;
 const float redmap_seam_slack = 1e-3;
 
 struct RedmapFootprint {
   vec2 uv, dx, dy;
 };
 // From the centre to a piece's.
-vec2 redmap_way(RedmapFootprint f, int i) { return (f.dx * float(i % 3 - 1) + f.dy * float(i / 3 - 1)) / 3.0; }
+vec2 redmap_way(RedmapFootprint f, int i) {
+  vec2 centre = vec2(float(i % redmap_seam_pieces) + 0.5, float(i / redmap_seam_pieces) + 0.5);
+  centre = centre / float(redmap_seam_pieces) - 0.5;
+  return f.dx * centre.x + f.dy * centre.y;
+}
 
 // The edge that the straight way to each piece crosses first, 0 for none; `near`: whether any edge is near at all.
 struct RedmapCrossings {
@@ -80,7 +83,7 @@ RedmapCrossings redmap_crossings(RedmapFootprint f, float reach, uint chart) {
 
 // A piece, beyond the edge that is crossed on the way to it.
 RedmapFootprint redmap_piece(RedmapFootprint f, int i, uint edge) {
-  RedmapFootprint piece = RedmapFootprint(f.uv + redmap_way(f, i), f.dx / 3.0, f.dy / 3.0);
+  RedmapFootprint piece = RedmapFootprint(f.uv + redmap_way(f, i), f.dx / float(redmap_seam_pieces), f.dy / float(redmap_seam_pieces));
   if (edge == 0u) return piece;
   mat2 beyond = mat2(redmap_pair(edge + 8u), redmap_pair(edge + 10u));
   return RedmapFootprint(redmap_pair(edge + 6u) + beyond * (piece.uv - redmap_pair(edge)), beyond * piece.dx,
@@ -90,7 +93,7 @@ RedmapFootprint redmap_piece(RedmapFootprint f, int i, uint edge) {
 // `texel`, what the footprint gave, or where it was not covered beside a seam, the mean of its pieces.
 RedmapTexel redmap_mended(RedmapFootprint f, uint triangle, RedmapTexel texel) {
   float reach = 0.5 * (length(f.dx) + length(f.dy));
-  if (redmap_coverage(texel) >= redmap_whole || reach * redmap_map.x < redmap_narrow) return texel;
+  if (redmap_coverage(texel) >= redmap_whole_coverage || reach * redmap_map.x < redmap_least_mended_reach) return texel;
   RedmapCrossings crossings = redmap_crossings(f, reach, redmap_chart(triangle));
   if (!crossings.near) return texel;
   // Texels come multiplied by coverage: their mean is weighted by it.
