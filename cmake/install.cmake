@@ -3,7 +3,7 @@
 
 include(CMakePackageConfigHelpers)
 
-set(REDMAP_MODULES base device surface shader user_shader lobes analysis map bake scene render gpu metrics verify)
+set(REDMAP_MODULES base device surface shader user_shader lobes analysis map bake scene render gpu metrics verify export)
 list(TRANSFORM REDMAP_MODULES PREPEND redmap_ OUTPUT_VARIABLE REDMAP_TARGETS)
 
 # The program's target has the name redmap already.

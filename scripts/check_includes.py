@@ -25,6 +25,7 @@ DIRECT = {
     "render": ["scene"],
     "verify": ["render", "bake", "metrics"],
     "gpu": ["device", "scene", "bake"],
+    "export": ["gpu"],
 }
 SOURCES = {".h", ".cpp", ".in"}
 # The contents page of the library may include everything; nothing inside the library may include it.

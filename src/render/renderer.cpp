@@ -77,11 +77,13 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, const std::
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     require_data(object, options_.method, data[i]);
-    const bool supersampled = is_supersampled(object, options_.method, data[i]);
+    const bool stands_in = static_cast<bool>(data[i].stand_in);
+    const bool supersampled = !stands_in && is_supersampled(object, options_.method, data[i]);
     supersampled_.push_back(supersampled);
     originals_.push_back(make_shader_shading(object.shader));
-    shading_.push_back(supersampled ? make_shader_shading(object.shader)
-                                    : make_shading(object, options_.method, data[i]));
+    shading_.push_back(stands_in      ? data[i].stand_in(object)
+                       : supersampled ? make_shader_shading(object.shader)
+                                      : make_shading(object, options_.method, data[i]));
     transmits_ |= object.shader->info().transmits;
   }
 }

@@ -49,6 +49,8 @@ struct ObjectData {
   std::shared_ptr<const Pyramid<float>> parameters;   ///< kParameters
   std::shared_ptr<const Pyramid<float>> normals;      ///< kPaper
   std::shared_ptr<const Pyramid<float>> slopes = {};  ///< kParameters, of shaders that perturb normals
+  /// Shades the object instead of what the method would; empty: nothing does.
+  std::function<std::unique_ptr<ObjectShading>(const Object&)> stand_in = {};
 };
 
 /// Whether the object's map cannot stand in for its shader, which `method` therefore samples. Method paper brings its
