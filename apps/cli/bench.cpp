@@ -93,6 +93,7 @@ void add_bench_command(CLI::App& app) {
   add_bench_gpu(*bench_app);
   add_bench_export(*bench_app);
   add_bench_coverage(*bench_app);
+  add_bench_paper(*bench_app);
   auto options = std::make_shared<BenchQualityOptions>();
   bench::QualityOptions& quality = options->quality;
   CLI::App* sub =

@@ -19,6 +19,7 @@ void add_bench_normals(CLI::App& bench_app);
 void add_bench_coverage(CLI::App& bench_app);
 void add_bench_gpu(CLI::App& bench_app);
 void add_bench_export(CLI::App& bench_app);
+void add_bench_paper(CLI::App& bench_app);
 void add_list_command(CLI::App& app);
 /// Only where there is GLFW.
 void add_view_command(CLI::App& app);

@@ -52,8 +52,12 @@ void add_device_option(CLI::App& sub, std::string& device) {
 Progress::Progress(std::string what)
     : what_(std::move(what)), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), next_write_(start_) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
+  const std::scoped_lock lock(mutex_);
   if (written_) std::fputs("\r\033[K", stderr);
+  written_ = false;
 }
 
 void Progress::update(double fraction) {

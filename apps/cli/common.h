@@ -42,6 +42,8 @@ class Progress {
 
   /// Part done, 0 to 1. From any thread, as often as you like: at most 10 lines a second are written.
   void update(double fraction);
+  /// Takes the line away, for others to be printed; the next update() brings it back.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;

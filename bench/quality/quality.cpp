@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "bake/bake.h"
-#include "bake/baselines.h"
 #include "base/error.h"
+#include "bench_data.h"
 #include "bench_scene.h"
 #include "error_sums.h"
 #include "reference.h"
@@ -91,9 +90,6 @@ RenderOptions options_of(const MethodCase& method) {
   return options;
 }
 
-/// Whether one averaged material can stand in for the shader at all.
-bool has_parameters(const ShaderInfo& shader) { return shader.has_material && !shader.emits; }
-
 bool has_quality(Method method) { return method == Method::kMap || method == Method::kParameters; }
 
 void measure_speed(const Case& c, const RenderOptions& options, int repeats, QualityRow& row) {
@@ -167,21 +163,6 @@ void measure_case(const Case& c, const QualityRow& labels, const std::vector<Met
     rows[first + i].flicker = fast[i], rows[first + i].flicker_slow = slow[i];
 }
 
-std::vector<ObjectData> bake_data(const Surface& surface, const Shader& shader, int map_size,
-                                  const std::function<bool()>& cancelled) {
-  ObjectData data;
-  BakeOptions bake_options;
-  bake_options.size = map_size;
-  bake_options.progress = [&](float, std::string_view) { return !(cancelled && cancelled()); };
-  data.map = std::make_shared<const ReductionMap>(bake(surface, shader, bake_options));
-  if (has_parameters(shader.info()))
-    data.parameters = std::make_shared<const Pyramid<float>>(build_parameter_pyramid(surface, shader, map_size));
-  if (shader.info().perturbs_normals)
-    data.slopes = std::make_shared<const Pyramid<float>>(build_slope_pyramid(surface, shader, map_size));
-  data.normals = std::make_shared<const Pyramid<float>>(build_normal_pyramid(surface, shader, map_size));
-  return {data};
-}
-
 }  // namespace
 
 std::vector<std::string> quality_methods() { return {std::begin(kMethodNames), std::end(kMethodNames)}; }
@@ -198,7 +179,7 @@ std::vector<QualityRow> measure_quality(const QualityOptions& options) {
     const auto surface = make_bench_surface(object, options.models);
     for (const std::string& name : shaders) {
       const std::shared_ptr<const Shader> shader = make_library_shader(name);
-      const auto data = bake_data(*surface, *shader, options.map_size, options.cancelled);
+      const std::vector<ObjectData> data{make_bench_data(*surface, *shader, options.map_size, options.cancelled)};
       for (double minification : options.minifications) {
         if (options.cancelled && options.cancelled()) throw Error("the bench was cancelled");
         if (options.progress) options.progress(done++ / total, object + " " + name);

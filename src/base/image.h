@@ -59,4 +59,7 @@ Image read_image(const std::filesystem::path& path);
 /// whose channels have no names, and when the file cannot be written whole.
 void write_image(const Image& image, const std::filesystem::path& path, ExrPrecision precision = ExrPrecision::kFloat);
 
+/// The bytes of the PNG file that write_image() writes. Throws Error on more than four channels, and on no pixels.
+std::string encode_png(const Image& image);
+
 }  // namespace redmap

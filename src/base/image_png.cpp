@@ -70,8 +70,8 @@ Image read_png(const std::filesystem::path& path) {
   return to_linear(pixels.get(), width, height, channels, 255);
 }
 
-void write_png(const Image& image, const std::filesystem::path& path) {
-  if (image.channels > 4) throw Error("{}: expected 1 to 4 channels in a PNG, found {}", path.string(), image.channels);
+std::string encode_png(const Image& image) {
+  if (image.channels > 4) throw Error("expected 1 to 4 channels in a PNG, found {}", image.channels);
   std::vector<std::uint8_t> stored(image.data.size());
   for (std::size_t i = 0; i < stored.size(); ++i) {
     const float value = std::isnan(image.data[i]) ? 0 : std::clamp(image.data[i], 0.0f, 1.0f);
@@ -84,7 +84,17 @@ void write_png(const Image& image, const std::filesystem::path& path) {
   };
   if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, image.channels, stored.data(),
                               image.width * image.channels))
-    throw Error("{}: cannot be compressed as a PNG picture", path.string());
+    throw Error("a picture of {} x {} pixels cannot be compressed as a PNG", image.width, image.height);
+  return bytes;
+}
+
+void write_png(const Image& image, const std::filesystem::path& path) {
+  std::string bytes;
+  try {
+    bytes = encode_png(image);
+  } catch (const Error& error) {
+    throw Error("{}: {}", path.string(), error.what());
+  }
   write_file(path, bytes);
 }
 
