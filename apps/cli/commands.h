@@ -11,6 +11,7 @@ void add_render_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_verify_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
+void add_export_command(CLI::App& app);
 void add_bench_command(CLI::App& app);
 void add_bench_strip(CLI::App& bench_app);
 void add_bench_atlas(CLI::App& bench_app);

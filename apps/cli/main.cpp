@@ -35,6 +35,7 @@ void add_commands(CLI::App& app) {
   add_compare_command(app);
   add_verify_command(app);
   add_inspect_command(app);
+  add_export_command(app);
   add_bench_command(app);
   add_list_command(app);
   add_mesh_command(app);
