@@ -9,7 +9,7 @@ list_files() {
     git ls-files --cached --others --exclude-standard -- "$@" |
       while read -r file; do [[ ! -e $file ]] || echo "$file"; done
   else
-    find src apps bench bindings tests scripts cmake -type f 2>/dev/null |
+    find src apps bench python tests scripts cmake -type f 2>/dev/null |
       while read -r file; do for pattern in "$@"; do [[ $file != $pattern ]] || echo "$file"; done; done
   fi
 }
