@@ -38,15 +38,20 @@ std::string system_name() {
   return name;
 }
 
+/// GCC says only its number.
+std::string compiler_name(const nlohmann::json& machine) {
+  const auto name = machine["compiler"].get<std::string>();
+  return name.find_first_not_of("0123456789.") == std::string::npos ? "GCC " + name : name;
+}
+
 bench::Origin origin_of(const bench::Report& report, const nlohmann::json& machine) {
-  return {
-      {"Processor", fmt::format("{}, {} cores, {} threads used", machine["processor"].get<std::string>(),
-                                machine["cores"].get<int>(), machine["threads"].get<int>())},
-      {"Memory", fmt::format("{:.1f} GB", 1e-9 * machine["memory_bytes"].get<double>())},
-      {"System", machine["system"].get<std::string>()},
-      {"Versions", fmt::format("redmap {}, compiled by {}", REDMAP_VERSION, machine["compiler"].get<std::string>())},
-      {"Run", fmt::format("{}, {} x {} texels, {:.0f} s, {:%Y-%m-%d %H:%M} UTC", report.quick ? "quick" : "full",
-                          report.map_size, report.map_size, report.seconds, fmt::gmtime(std::time(nullptr)))}};
+  return {{"Processor", fmt::format("{}, {} cores, {} threads used", machine["processor"].get<std::string>(),
+                                    machine["cores"].get<int>(), machine["threads"].get<int>())},
+          {"Memory", fmt::format("{:.1f} GB", 1e-9 * machine["memory_bytes"].get<double>())},
+          {"System", machine["system"].get<std::string>()},
+          {"Versions", fmt::format("redmap {}, compiled by {}", REDMAP_VERSION, compiler_name(machine))},
+          {"Run", fmt::format("{}, {} x {} texels, {:.0f} s, {:%Y-%m-%d %H:%M} UTC", report.quick ? "quick" : "full",
+                              report.map_size, report.map_size, report.seconds, fmt::gmtime(std::time(nullptr)))}};
 }
 
 void run(Options& options) {

@@ -19,17 +19,27 @@ std::string label_of(const QualityRow& row) {
   return row.quality == "fast" ? name + ", fast" : name;
 }
 
+/// The same for a method in all plots. Samples that are one curve have the colour of 1 sample.
+int colour_of(const std::string& label) {
+  static const std::map<std::string, int> kColours = {{"1 sample", 0},           {"map, fast", 1},
+                                                      {"64 samples", 2},         {"averaged parameters", 3},
+                                                      {paper_method().label, 4}, {"averaged parameters, fast", 5},
+                                                      {"16 samples", 6},         {"map", 7}};
+  const auto found = kColours.find(label);
+  return found == kColours.end() ? 0 : found->second;
+}
+
 /// Samples are one curve; every other method is a point.
 Plot plot_time(const std::vector<QualityRow>& rows, const std::string& shader) {
   Plot plot{"time_" + shader, shader + ": error against time, 8 texels a pixel", "milliseconds a frame", "RMSE", {}};
-  Series samples{"samples of the shader: 1, 4, 16, 64", {}, true};
+  Series samples{"samples of the shader: 1, 4, 16, 64", {}, true, 0};
   for (const QualityRow& row : rows) {
     if (row.shader != shader || row.minification != kNear) continue;
     const Series::Point point{1e3 * row.seconds_per_frame, row.rmse_interior};
     if (row.method == "original" || row.method == "supersample")
       samples.points.push_back(point);
     else
-      plot.series.push_back({label_of(row), {point}, false});
+      plot.series.push_back({label_of(row), {point}, false, colour_of(label_of(row))});
   }
   plot.series.insert(plot.series.begin(), std::move(samples));
   return plot;
@@ -43,7 +53,8 @@ Plot plot_distance(const std::vector<QualityRow>& rows, const std::string& shade
     if (label == "4 samples" || label == "averaged parameters, fast") continue;
     auto series =
         std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.name == label; });
-    if (series == plot.series.end()) series = plot.series.insert(plot.series.end(), {label, {}, true});
+    if (series == plot.series.end())
+      series = plot.series.insert(plot.series.end(), {label, {}, true, colour_of(label)});
     series->points.push_back({row.minification, row.rmse_interior});
   }
   return plot;

@@ -33,6 +33,34 @@ RuleUse measure_use(const std::function<Scene(int)>& scene_at, int frames, const
   return {1 + (kPaperSamples - 1) * part, part};
 }
 
+Table make_table() {
+  return {"rule",
+          "Samples a pixel by the paper's rule",
+          {{"slope", "bumps"},
+           {"paper_samples_per_pixel", "samples a pixel, paper"},
+           {"samples_per_pixel", "its rule here"},
+           {"supersampled_part", "part of the pixels supersampled"},
+           {"map_supersampled_part", "the same, map"},
+           {"rmse_paper", "RMSE, the paper's way"},
+           {"rmse_map_fast", "RMSE, map, fast"},
+           {"rmse_map", "RMSE, map"},
+           {"rmse_16", "RMSE, 16 samples"}},
+          {}};
+}
+
+Slider show_rule(Laboratory& laboratory) {
+  const BakedTexture& texture = laboratory.baked("bunny", kBump);
+  const Scene scene = scene_of(texture, laboratory.options().map_size, kMinification);
+  RenderOptions options = paper_method().options;
+  options.decisions = true;
+  RenderedFrame frame = Renderer(scene, options, texture.data).render(scene, 0);
+  Slider slider{"The paper's rule on the bumpy bunny: red pixels are supersampled", {}, 3};
+  slider.pictures.push_back({"decisions", paint_decisions(frame.decisions, frame.image.width, frame.image.height)});
+  slider.pictures.push_back({"the paper's way", std::move(frame.image)});
+  slider.pictures.push_back({"map", render_picture(scene, texture.data, map_method(Quality::kDefault).options)});
+  return slider;
+}
+
 }  // namespace
 
 Figure measure_fig6(Laboratory& laboratory) {
@@ -46,18 +74,7 @@ Figure measure_fig6(Laboratory& laboratory) {
       "Phong lobe of exponent 100; samples a pixel of the object, rays at silhouettes not counted, since the paper "
       "does "
       "not count them. The map integrates over normals instead: it never goes back to the shader.";
-  Table table{"rule",
-              "Samples a pixel by the paper's rule",
-              {{"slope", "bumps"},
-               {"paper_samples_per_pixel", "samples a pixel, paper"},
-               {"samples_per_pixel", "its rule here"},
-               {"supersampled_part", "part of the pixels supersampled"},
-               {"map_supersampled_part", "the same, map"},
-               {"rmse_paper", "RMSE, the paper's way"},
-               {"rmse_map_fast", "RMSE, map, fast"},
-               {"rmse_map", "RMSE, map"},
-               {"rmse_16", "RMSE, 16 samples"}},
-              {}};
+  Table table = make_table();
   const int frames = laboratory.samples(300, 20);
   const std::vector<int> error_frames = laboratory.quick() ? std::vector<int>{0} : std::vector<int>{0, 7, 13};
   double reached = 0, map_part = 0, done = 0;
@@ -84,16 +101,7 @@ Figure measure_fig6(Laboratory& laboratory) {
                            text_of(reached) + " with a root mean square slope of .08", reached <= 1.6});
   figure.claims.push_back(
       {"the map without any sample of the shader more", text_of(100 * map_part) + " % of the pixels", map_part == 0});
-  const BakedTexture& texture = laboratory.baked("bunny", kBump);
-  const Scene scene = scene_of(texture, laboratory.options().map_size, kMinification);
-  RenderOptions options = paper_method().options;
-  options.decisions = true;
-  RenderedFrame frame = Renderer(scene, options, texture.data).render(scene, 0);
-  Slider slider{"The paper's rule on the bumpy bunny: red pixels are supersampled", {}, 3};
-  slider.pictures.push_back({"decisions", paint_decisions(frame.decisions, frame.image.width, frame.image.height)});
-  slider.pictures.push_back({"the paper's way", std::move(frame.image)});
-  slider.pictures.push_back({"map", render_picture(scene, texture.data, map_method(Quality::kDefault).options)});
-  figure.sliders.push_back(std::move(slider));
+  figure.sliders.push_back(show_rule(laboratory));
   return figure;
 }
 

@@ -60,13 +60,14 @@ std::string html_of(const Slider& slider) {
   }
   const Image& first = slider.pictures.front().image;
   return fmt::format(
-      "<figure class=\"slider\"><figcaption>{}</figcaption><div class=\"choice\"><select class=\"left\" "
+      "<figure class=\"slider\" style=\"--width:{}px\"><figcaption>{}</figcaption><div class=\"choice\"><select "
+      "class=\"left\" "
       "aria-label=\"left picture\">{}</select><select class=\"right\" aria-label=\"right picture\">{}</select></div>"
       "<div class=\"stage\" tabindex=\"0\" role=\"slider\" aria-label=\"edge between the pictures\" "
       "aria-valuemin=\"0\" "
-      "aria-valuemax=\"100\" aria-valuenow=\"50\" style=\"width:{}px;aspect-ratio:{}/{}\">{}<div "
+      "aria-valuemax=\"100\" aria-valuenow=\"50\" style=\"aspect-ratio:{}/{}\">{}<div "
       "class=\"edge\"></div></div></figure>\n",
-      escaped(slider.title), options, options, first.width * slider.zoom, first.width, first.height, pictures);
+      first.width * slider.zoom, escaped(slider.title), options, options, first.width, first.height, pictures);
 }
 
 /// The frames side by side, of which the page shows one after the other.

@@ -39,6 +39,7 @@ struct Series {
   std::string name;
   std::vector<Point> points;
   bool joined = true;
+  int colour = -1;  ///< of the page's eight; -1: its place in the plot
 };
 struct Plot {
   std::string key, title, x_title, y_title;

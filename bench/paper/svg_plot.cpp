@@ -66,7 +66,7 @@ std::string draw_axes(const Plot& plot, const Axis& x, const Axis& y) {
                    (kTop + kHeight - kBottom) / 2, escaped(plot.y_title));
 }
 
-std::string draw_series(const Series& series, std::size_t index, const Axis& x, const Axis& y) {
+std::string draw_series(const Series& series, int colour, const Axis& x, const Axis& y) {
   std::string line, points;
   for (const Series::Point& point : series.points) {
     if (!is_drawn(point)) continue;
@@ -75,7 +75,7 @@ std::string draw_series(const Series& series, std::size_t index, const Axis& x, 
         fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}: {:.4g}, {:.4g}</title></circle>",
                     x.at(point.x), y.at(point.y), series.joined ? 3 : 5.5, escaped(series.name), point.x, point.y);
   }
-  return fmt::format("<g class=\"series s{}\">{}{}</g>", index,
+  return fmt::format("<g class=\"series s{}\">{}{}</g>", colour,
                      series.joined ? fmt::format("<path d=\"{}\"/>", line) : std::string(), points);
 }
 
@@ -119,8 +119,9 @@ std::string svg_of(const Plot& plot) {
   svg += draw_axes(plot, x, y);
   std::string legend;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    svg += draw_series(plot.series[i], i, x, y);
-    legend += fmt::format("<li class=\"s{}\">{}</li>", i, escaped(plot.series[i].name));
+    const int colour = plot.series[i].colour < 0 ? static_cast<int>(i) : plot.series[i].colour;
+    svg += draw_series(plot.series[i], colour, x, y);
+    legend += fmt::format("<li class=\"s{}\">{}</li>", colour, escaped(plot.series[i].name));
   }
   return svg + "</svg><ul class=\"legend\">" + legend + "</ul></figure>\n";
 }

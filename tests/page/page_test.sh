@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# The report of a small `redmap bench paper`, opened in headless Chromium; an interrupted one leaves nothing.
+#   page_test.sh REDMAP_BINARY FOLDER, where node_modules and screenshots go
+set -euo pipefail
+source_folder=$(cd "$(dirname "$0")" && pwd)
+redmap=$1
+folder=$2
+for program in node npm "${CHROMIUM:-/usr/bin/chromium}"; do
+  command -v "$program" >/dev/null || { echo "there is no $program; scripts/setup.sh installs it"; exit 77; }
+done
+
+mkdir -p "$folder"
+cd "$folder"
+if ! cmp -s "$source_folder/package-lock.json" package-lock.json || [[ ! -d node_modules/playwright-core ]]; then
+  cp "$source_folder/package.json" "$source_folder/package-lock.json" .
+  npm ci --ignore-scripts --no-audit --no-fund --loglevel=error || { rm -f package-lock.json; exit 1; }
+fi
+
+small=(bench paper --quick --object sphere --size 32)
+rm -f report.json report.html
+"$redmap" "${small[@]}" --json report.json --html report.html >/dev/null 2>stderr &
+bench=$!
+sleep 0.5
+kill -INT $bench
+status=0
+wait $bench || status=$?
+[[ $status -eq 130 && $(cat stderr) == interrupted && ! -e report.json && ! -e report.html ]] ||
+  { echo "interrupted: expected status 130 and no files, found status $status and: $(cat stderr)"; exit 1; }
+
+"$redmap" "${small[@]}" --figures fig4,filters,flicker --json report.json --html report.html >report.txt
+python3 - <<'PYTHON'
+import json
+report = json.load(open("report.json"))
+assert [figure["id"] for figure in report["figures"]] == ["fig4", "flicker", "filters"], report["figures"]
+assert report["machine"]["processor"] and report["machine"]["system"] and report["version"]
+for figure in report["figures"]:
+    assert figure["title"] in open("report.txt").read(), figure["title"]
+    for table in figure["tables"]:
+        keys = {column["key"] for column in table["columns"]}
+        assert table["rows"] and all(set(row) == keys for row in table["rows"]), table["key"]
+PYTHON
+node "$source_folder/page_test.mjs" node_modules report.html .
