@@ -64,14 +64,17 @@ void run(const Options& options) {
   if (input.map->verdict == MapVerdict::kDoesNotReduce)
     fmt::print(stderr, "{}: the map does not stand in for its shader: {}\n", options.map, input.map->verdict_reason);
   ExportFolder folder(options.output);
-  input.fits = fit_basis(*input.map, *input.shader);
-  print_fits(input);
+  if (options.kind != "glsl") {
+    input.fits = fit_basis(*input.map, *input.shader);
+    print_fits(input);
+  }
   stop_if_interrupted();
   if (options.kind == "gltf")
     export_gltf(input, options.materials == "k" ? MaterialCount::kOneABasis : MaterialCount::kOne, folder);
   if (options.kind == "ktx2") export_ktx2(input, folder);
   if (options.kind == "tx") export_tx(input, folder);
   if (options.kind == "mtlx") export_mtlx(input, folder);
+  if (options.kind == "glsl") export_glsl(input, folder);
   stop_if_interrupted();
   folder.commit();
   fmt::print("{}\n", options.output);
@@ -90,7 +93,7 @@ void add_export_command(CLI::App& app) {
   sub->add_option("map", options->map, "the map's file")->required();
   sub->add_option("--to", options->kind, "what to write")
       ->required()
-      ->check(CLI::IsMember({"gltf", "ktx2", "tx", "mtlx"}));
+      ->check(CLI::IsMember({"gltf", "ktx2", "tx", "mtlx", "glsl"}));
   sub->add_option("-o,--output", options->output, "folder to write; an earlier export there is replaced")->required();
   sub->add_option("--scene", options->scene, "the scene that the map was baked from, for its mesh");
   sub->add_option("--materials", options->materials, "gltf: one averaged material, or k of them with masks")

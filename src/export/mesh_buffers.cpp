@@ -90,4 +90,17 @@ MeshBuffers mesh_buffers(const Surface& surface) {
   return mesh;
 }
 
+std::string mesh_bytes(const MeshBuffers& mesh) {
+  std::string bytes;
+  const auto append = [&](const auto* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(*values));
+  };
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    append(mesh.positions[i].data(), 3), append(mesh.normals[i].data(), 3);
+    append(mesh.tangents[i].data(), 3), append(mesh.uv[i].data(), 2);
+  }
+  append(mesh.indices.data(), mesh.indices.size());
+  return bytes;
+}
+
 }  // namespace redmap

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "surface/surface.h"
@@ -20,5 +21,7 @@ struct MeshBuffers {
 
 /// A mesh as it is, at rest; spheres and cylinders as a grid.
 MeshBuffers mesh_buffers(const Surface& surface);
+/// For a program of one's own: 11 floats a vertex (position, normal, tangent, uv with v upwards), then the indices.
+std::string mesh_bytes(const MeshBuffers& mesh);
 
 }  // namespace redmap

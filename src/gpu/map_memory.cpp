@@ -120,7 +120,7 @@ void set_map_block(const ReductionMap& map, ObjectBlock& block) {
     block.scales[i] = {scales[4 * i], scales[4 * i + 1], scales[4 * i + 2], scales[4 * i + 3]};
 }
 
-LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map) {
+WeightTexels weight_texels(const ReductionMap& map) {
   const WeightPyramid& weights = map.weights;
   const bool has_coverage = !is_covered(weights);
   const int channels = weights.channels(), layers = (channels + (has_coverage ? 1 : 0) + 3) / 4;
@@ -139,7 +139,13 @@ LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map
         }
       }
   }
-  return LayeredTexture(device, weights.extent(0), layers, weights.levels(), weights.wraps_u(), texels);
+  return {layers, std::move(texels)};
+}
+
+LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map) {
+  const WeightTexels all = weight_texels(map);
+  const WeightPyramid& weights = map.weights;
+  return LayeredTexture(device, weights.extent(0), all.layers, weights.levels(), weights.wraps_u(), all.texels);
 }
 
 std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surface, const ObjectTraits& traits) {

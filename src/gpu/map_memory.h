@@ -15,7 +15,13 @@ void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTrait
 /// The map's part of an object's block.
 void set_map_block(const ReductionMap& map, ObjectBlock& block);
 
-/// Weights, four to a layer, multiplied by coverage where there is any; coverage follows the last.
+/// Weights, four to a layer, multiplied by coverage where there is any; coverage follows the last. Level after level,
+/// layer after layer, rows from v = 0 up.
+struct WeightTexels {
+  int layers = 0;
+  std::vector<std::byte> texels;
+};
+WeightTexels weight_texels(const ReductionMap& map);
 LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map);
 
 /// Places of the basis and their frames, lobe models, drawn normals and, where the map has them, bytes of normals, or

@@ -36,7 +36,7 @@ std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind) {
 }
 
 std::string sort_text(SurfaceKind surface) {
-  return head(surface) + kernel_texts({"view", "object", "analytic", "frame", "hit", "footprint", "sort"});
+  return head(surface) + kernel_texts({"view", "object", "analytic", "frame", "hit_type", "hit", "footprint", "sort"});
 }
 
 std::string group_text() { return "#version 450\n" + kernel_texts({"frame", "group"}); }
@@ -46,8 +46,9 @@ ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, con
   ShaderSources all{"", shader.sources.names};
   all.names.push_back(shader.sources.names.front() + ", as redmap renders it");
   const std::string ours = fmt::format("#line 1 {}\n", all.names.size() - 1);
-  std::string before = kernel_texts({"view", "object", "analytic", "frame", "hit", "footprint", "place", "lights"});
-  std::string after = kernel_texts({"shade"});
+  std::string before = kernel_texts(
+      {"view", "object", "analytic", "frame", "hit_type", "hit", "footprint", "own_memory", "place", "lights"});
+  std::string after = kernel_texts({"own_patterns", "bind", "shade"});
   if (traits.basis > 0) {
     before += kernel_texts({"lookup", "lobes"});
     if (traits.has_normals) before += kernel_text("normals");

@@ -72,7 +72,7 @@ void redmap_blend_clusters(RedmapHit hit, RedmapAxes axes, inout float weights[R
     float share = reaches ? redmap_weight_under(kernel, cluster) * exp2(-float(findMSB(node))) : 0.0;
     if (share > 0.0) {
       uint mean = redmap_clusters_first + (node - 1u) * redmap_cluster_floats + 8u;
-      for (uint b = 0u; b < REDMAP_BASIS; b++) sums[b] += share * redmap_number(mean + b);
+      for (uint b = 0u; b < uint(REDMAP_BASIS); b++) sums[b] += share * redmap_number(mean + b);
       total += share;
     }
     node++;

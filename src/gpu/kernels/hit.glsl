@@ -1,23 +1,6 @@
 // What a sample hits, as the surfaces' complete() and render/hit_footprint.h say it, in object space.
 layout(binding = 9) uniform usampler2DArray redmap_seen;  // numbers of triangles
 
-struct RedmapHit {
-  vec3 position, normal, geometric, tangent, dp_du, dp_dv, dn_du, dn_dv;
-  vec2 uv;
-  vec3 to_viewer;
-  bool turned;  // the normals, towards the viewer
-  vec2 duv_dx, duv_dy;
-  uint triangle;
-};
-
-// A unit vector perpendicular to `normal`, along `tangent` if that is possible.
-vec3 redmap_perpendicular(vec3 normal, vec3 tangent) {
-  vec3 x = tangent - normal * dot(tangent, normal);
-  if (dot(x, x) < 1e-12 * max(1e-20, dot(tangent, tangent)))
-    x = abs(normal.x) > 0.7 ? cross(vec3(0.0, 1.0, 0.0), normal) : cross(vec3(1.0, 0.0, 0.0), normal);
-  return normalize(x);
-}
-
 #if REDMAP_SURFACE == 0
 // Two vec4 a vertex: position, normal, uv.
 layout(std430, binding = 2) readonly buffer RedmapFaces { vec4 redmap_faces[]; };

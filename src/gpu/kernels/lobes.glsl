@@ -1,11 +1,11 @@
 // Integrals of lobe models over Gaussian distributions of normals in closed form: src/lobes/lobe_lanes.cpp, one at a
 // time. The model of each basis reflectance stands in the data, with the widths that it uses alone.
-const uint redmap_angle_floats = 7u + 3u * REDMAP_WIDTHS;
-const uint redmap_drawn_first = REDMAP_BASIS * (redmap_place_floats + 4u + REDMAP_WIDTHS + 9u * redmap_angle_floats);
-const uint redmap_model_floats = 4u + REDMAP_WIDTHS + 9u * redmap_angle_floats;
+const uint redmap_angle_floats = 7u + 3u * uint(REDMAP_WIDTHS);
+const uint redmap_model_floats = 4u + uint(REDMAP_WIDTHS) + 9u * redmap_angle_floats;
+const uint redmap_drawn_first = uint(REDMAP_BASIS) * (redmap_place_floats + redmap_model_floats);
 
 // The record of a basis reflectance: narrowest highlight, whether it is to be trusted, how many widths; the widths.
-uint redmap_model(uint b) { return REDMAP_BASIS * redmap_place_floats + b * redmap_model_floats; }
+uint redmap_model(uint b) { return uint(REDMAP_BASIS) * redmap_place_floats + b * redmap_model_floats; }
 float redmap_width(uint b, uint k) { return redmap_number(redmap_model(b) + 4u + k); }
 
 float redmap_luminance(vec3 c) { return (c.x + c.y + c.z) * (1.0 / 3.0); }
@@ -52,12 +52,12 @@ struct RedmapLobes {
 };
 RedmapLobes redmap_lobes_at(uint b, float theta_degrees) {
   float position = clamp(theta_degrees * 0.1, 0.0, 8.0), below = min(floor(position), 7.0), part = position - below;
-  uint row = redmap_model(b) + 4u + REDMAP_WIDTHS + uint(below) * redmap_angle_floats, next = row + redmap_angle_floats;
+  uint row = redmap_model(b) + 4u + uint(REDMAP_WIDTHS) + uint(below) * redmap_angle_floats, next = row + redmap_angle_floats;
   RedmapLobes lobes;
   lobes.constant = mix(redmap_vector(row), redmap_vector(next), part);
   lobes.cosine = mix(redmap_vector(row + 3u), redmap_vector(next + 3u), part);
   lobes.stretch = mix(redmap_number(row + 6u), redmap_number(next + 6u), part);
-  for (uint k = 0u; k < REDMAP_WIDTHS; k++)
+  for (uint k = 0u; k < uint(REDMAP_WIDTHS); k++)
     lobes.amplitude[k] = mix(redmap_vector(row + 7u + 3u * k), redmap_vector(next + 7u + 3u * k), part);
   return lobes;
 }
@@ -116,7 +116,7 @@ void redmap_add(uint b, RedmapLobes lobes, RedmapHalf half_vector, RedmapNormals
   float pxx = redmap_product(in_plane, c, in_plane), pxy = redmap_product(in_plane, c, across),
         pyy = redmap_product(across, c, across);
   float sees = dot(half_vector.middle, mean) > redmap_least_facing ? weight : 0.0;
-  for (uint k = 0u; k < REDMAP_WIDTHS; k++) {
+  for (uint k = 0u; k < uint(REDMAP_WIDTHS); k++) {
     float s = redmap_width(b, k), s2 = s * s;
     float lobe_xx = lobes.stretch * lobes.stretch * s2;
     float xx = pxx + lobe_xx, yy = pyy + s2;
@@ -149,7 +149,7 @@ RedmapValue redmap_at_normal(uint b, RedmapLobes lobes, RedmapHalf half_vector, 
   bool sees = dot(half_vector.middle, normal) > redmap_least_facing;
   RedmapValue value =
       RedmapValue(vec3(0.0), lobes.constant + lobes.cosine * max(dot(half_vector.to_light, normal), 0.0));
-  for (uint k = 0u; k < REDMAP_WIDTHS; k++) {
+  for (uint k = 0u; k < uint(REDMAP_WIDTHS); k++) {
     float s = redmap_width(b, k);
     value.highlight += lobes.amplitude[k] * (sees ? exp(-min(radius2 * (0.5 / (s * s)), 80.0)) : 0.0);
   }

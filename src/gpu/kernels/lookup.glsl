@@ -1,7 +1,5 @@
 // The weights under a footprint: the plan of map/lookup_plan.cpp, its taps by the device's own filter. Where the map
 // does not cover all of its texels, weights come multiplied by their coverage, which is the channel after them.
-layout(binding = 10) uniform sampler2DArray redmap_texels;
-
 const int redmap_layers = (REDMAP_BASIS + REDMAP_HAS_COVERAGE + 3) / 4;
 // Less than half a byte of one texel.
 const float redmap_least_coverage = 0.0019;

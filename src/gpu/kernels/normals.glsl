@@ -4,7 +4,7 @@ const uint redmap_normals_first = redmap_drawn_first + 2u * uint(redmap_drawn_no
 const uint redmap_normal_levels = 16u;
 
 uint redmap_byte(uint at) {
-  return (redmap_data[redmap_normals_first + redmap_normal_levels + (at >> 2u)] >> (8u * (at & 3u))) & 255u;
+  return (redmap_word(redmap_normals_first + redmap_normal_levels + (at >> 2u)) >> (8u * (at & 3u))) & 255u;
 }
 // Standard deviations from .001 to 1 on a logarithmic scale; 0 is none.
 float redmap_unpacked_variance(uint b) {
@@ -68,8 +68,8 @@ float redmap_area(RedmapPatch patch_, ivec2 place, out int column, out RedmapTex
 }
 // Where the distributions of a texel are; each of those beyond the base has a share and weights of its own.
 uint redmap_normals_at(RedmapPatch patch_, int column, int row) {
-  uint size = patch_.level == 0u ? 6u : 2u * (7u + REDMAP_BASIS);
-  return redmap_data[redmap_normals_first + patch_.level] + size * uint(row * patch_.extent.x + column);
+  uint size = patch_.level == 0u ? 6u : 2u * (7u + uint(REDMAP_BASIS));
+  return redmap_word(redmap_normals_first + patch_.level) + size * uint(row * patch_.extent.x + column);
 }
 
 // Mean normal of a texel of the base; false where nothing is covered, whose bytes are zero.
@@ -78,7 +78,7 @@ bool redmap_mean_at(ivec2 place, out vec2 mean) {
   mean = vec2(0.0);
   if (REDMAP_WRAPS != 0) place.x = (place.x + extent.x) % extent.x;
   if (place.x < 0 || place.x >= extent.x || place.y < 0 || place.y >= extent.y) return false;
-  uint at = redmap_data[redmap_normals_first] + 6u * uint(place.y * extent.x + place.x);
+  uint at = redmap_word(redmap_normals_first) + 6u * uint(place.y * extent.x + place.x);
   uint b1 = redmap_byte(at + 1u), x = redmap_byte(at) | (b1 & 15u) << 8u, y = b1 >> 4u | redmap_byte(at + 2u) << 4u;
   mean = (vec2(float(int(x)), float(int(y))) - 2048.0) / 2047.0;
   return x != 0u;

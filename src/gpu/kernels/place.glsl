@@ -1,8 +1,4 @@
-// What the object's own text is given, and the world around it (compare user_shader/stages.cpp).
-layout(local_size_x = 64) in;
-layout(constant_id = 0) const uint redmap_stage = 0u;
-const uint redmap_bind_stage = 0u, redmap_near_stage = 1u, redmap_far_stage = 2u, redmap_spread_stage = 3u;
-
+// What the object's own text is given (compare user_shader/stages.cpp).
 // Every loop of a user's shader asks before each round; each call starts anew. What does not end is remembered.
 #ifdef REDMAP_GUARDED
 uint redmap_rounds = 0u;
@@ -22,8 +18,7 @@ void redmap_forget_rounds() {
 }
 
 // Places of the basis, lobe models, normals: floats by their bits, or bytes.
-layout(std430, binding = 7) readonly buffer RedmapData { uint redmap_data[]; };
-float redmap_number(uint i) { return uintBitsToFloat(redmap_data[i]); }
+float redmap_number(uint i) { return uintBitsToFloat(redmap_word(i)); }
 vec3 redmap_vector(uint i) { return vec3(redmap_number(i), redmap_number(i + 1u), redmap_number(i + 2u)); }
 
 #ifdef REDMAP_HIDES_FRAMES
@@ -51,17 +46,4 @@ Surface redmap_hit_place(RedmapHit hit) {
 // Directions in the frame whose x is `tangent` and z is `normal`.
 vec3 redmap_in_frame(vec3 v, vec3 normal, vec3 tangent) {
   return vec3(dot(v, tangent), dot(v, cross(normal, tangent)), dot(v, normal));
-}
-
-// Uniform in [0, 1), for a sample of the frame (PCG; Jarzynski and Olano 2020).
-float redmap_random(uint sample_index) {
-  uint first_sample = redmap_first_row * redmap_picture.x;
-  uint state = (first_sample + sample_index + redmap_picture.w * 0x9E3779B9u) * 747796405u + 2891336453u;
-  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-  return float(((word >> 22u) ^ word) >> 8u) * (1.0 / 16777216.0);
-}
-
-uint redmap_listed(uint list, uint i) {
-  uint all = redmap_picture.x * redmap_rows;
-  return redmap_samples[list == redmap_near ? i : (list == redmap_far ? all + i : 2u * all - 1u - i)];
 }

@@ -7,13 +7,13 @@ const uint redmap_seams_first = redmap_clusters_first + (2u * uint(REDMAP_LEAVES
 const uint redmap_seams_first = redmap_drawn_first + 2u * uint(redmap_drawn_normals);
 #endif
 const uint redmap_edge_words = 13u;
-uint redmap_grid_cells() { return redmap_data[redmap_seams_first]; }
-uint redmap_list_start(uint cell) { return redmap_data[redmap_seams_first + 1u + cell]; }
+uint redmap_grid_cells() { return redmap_word(redmap_seams_first); }
+uint redmap_list_start(uint cell) { return redmap_word(redmap_seams_first + 1u + cell); }
 uint redmap_edges_first() { return redmap_seams_first + 3u + redmap_grid_cells() * redmap_grid_cells(); }
-uint redmap_lists_first() { return redmap_edges_first() + redmap_edge_words * redmap_data[redmap_edges_first() - 1u]; }
+uint redmap_lists_first() { return redmap_edges_first() + redmap_edge_words * redmap_word(redmap_edges_first() - 1u); }
 uint redmap_chart(uint triangle) {
   uint cells = redmap_grid_cells();
-  return redmap_data[redmap_lists_first() + redmap_list_start(cells * cells) + triangle];
+  return redmap_word(redmap_lists_first() + redmap_list_start(cells * cells) + triangle);
 }
 vec2 redmap_pair(uint at) { return vec2(redmap_number(at), redmap_number(at + 1u)); }
 
@@ -51,7 +51,7 @@ void redmap_cross(uint edge, RedmapFootprint f, inout RedmapCrossings crossings)
 }
 bool redmap_is_near(uint edge, uint chart, vec2 lower, vec2 upper) {
   vec2 from = redmap_pair(edge), to = redmap_pair(edge + 2u);
-  return redmap_data[edge + 12u] == chart && all(lessThanEqual(min(from, to), upper)) &&
+  return redmap_word(edge + 12u) == chart && all(lessThanEqual(min(from, to), upper)) &&
          all(greaterThanEqual(max(from, to), lower));
 }
 uvec2 redmap_cell(vec2 uv) {
@@ -72,7 +72,7 @@ RedmapCrossings redmap_crossings(RedmapFootprint f, float reach, uint chart) {
     uint row = y * redmap_grid_cells(), end = redmap_list_start(row + last.x + 1u);
     for (uint i = redmap_list_start(row + first.x); i < end; i++) {
       redmap_forget_rounds();
-      uint edge = redmap_edges_first() + redmap_edge_words * redmap_data[redmap_lists_first() + i];
+      uint edge = redmap_edges_first() + redmap_edge_words * redmap_word(redmap_lists_first() + i);
       if (!redmap_is_near(edge, chart, lower, upper)) continue;
       crossings.near = true;
       redmap_cross(edge, f, crossings);

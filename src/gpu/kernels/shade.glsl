@@ -1,26 +1,4 @@
 // The samples of one object: its shader at places of the basis, and itself.
-layout(std430, binding = 5) readonly buffer RedmapParameters { Parameters redmap_parameters; };
-layout(std430, binding = 6) buffer RedmapPatterns { REDMAP_BOUND redmap_patterns[]; };
-
-void redmap_bind(uint redmap_b) {
-  Surface redmap_at = redmap_basis_place(redmap_b);
-#ifndef REDMAP_BLACK_BOX
-  redmap_patterns[redmap_b] = pattern(redmap_at, redmap_parameters);
-#elif defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
-  vec3 redmap_n = redmap_at.normal, redmap_t = redmap_at.tangent;
-#ifdef REDMAP_PERTURBS
-  redmap_n = shading_normal(redmap_at, redmap_parameters);
-#endif
-#ifdef REDMAP_TURNS
-  redmap_t = normalize(shading_tangent(redmap_at, redmap_parameters));
-#endif
-  redmap_patterns[redmap_b] = redmap_framed(redmap_at, redmap_n, redmap_t);
-#else
-  redmap_patterns[redmap_b] = RedmapPlace(redmap_at, redmap_at.normal, redmap_at.tangent);
-#endif
-  redmap_ended(0u);
-}
-
 vec3 redmap_of_basis(uint redmap_b, vec3 redmap_l, vec3 redmap_v) {
 #ifdef REDMAP_HIDES_FRAMES
   redmap_l = redmap_unhidden(redmap_b, redmap_l);

@@ -6,7 +6,8 @@ void main() {
 #endif
 #if REDMAP_BASIS > 0
   if (redmap_stage == redmap_bind_stage) {
-    if (redmap_i < REDMAP_BASIS) redmap_bind(redmap_i);
+    if (redmap_i < uint(REDMAP_BASIS)) redmap_patterns[redmap_i] = redmap_bound(redmap_i);
+    redmap_ended(0u);
     return;
   }
 #endif

@@ -69,7 +69,7 @@ void redmap_ask_patch(RedmapPatch redmap_p, float redmap_part_, inout RedmapQues
             redmap_cut(redmap_unpack(redmap_at), redmap_p, ivec2(redmap_x, redmap_y), redmap_column), redmap_q.turned,
             redmap_q.turn);
         redmap_ask(redmap_d, redmap_scale * redmap_w * redmap_own, redmap_q, redmap_s);
-        redmap_at += 7u + REDMAP_BASIS;
+        redmap_at += 7u + uint(REDMAP_BASIS);
       }
     }
 }
@@ -116,7 +116,7 @@ vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sam
     vec3 redmap_e = redmap_arriving(redmap_i, redmap_hit_, redmap_l);
     redmap_q.to_light = redmap_in_frame(redmap_l, redmap_hit_.normal, redmap_hit_.tangent);
     redmap_q.about = redmap_half(redmap_q.to_light, redmap_q.to_viewer);
-    for (uint redmap_b = 0u; redmap_b < REDMAP_BASIS; redmap_b++) {
+    for (uint redmap_b = 0u; redmap_b < uint(REDMAP_BASIS); redmap_b++) {
       redmap_q.basis = redmap_b;
       redmap_sum += redmap_e * redmap_over_normals(redmap_g, redmap_w[redmap_b], redmap_q);
     }

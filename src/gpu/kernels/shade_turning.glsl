@@ -34,7 +34,7 @@ vec3 redmap_spread_out(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS]) {
     vec3 redmap_l;
     vec3 redmap_e = redmap_arriving(redmap_i, redmap_hit_, redmap_l);
     redmap_l = redmap_in_frame(redmap_l, redmap_hit_.normal, redmap_hit_.tangent);
-    for (uint redmap_b = 0u; redmap_b < REDMAP_BASIS; redmap_b++)
+    for (uint redmap_b = 0u; redmap_b < uint(REDMAP_BASIS); redmap_b++)
       redmap_sum += redmap_e * redmap_one_spread(redmap_b, redmap_d, redmap_w[redmap_b], redmap_l, redmap_v);
   }
   return redmap_sum;
