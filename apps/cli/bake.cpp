@@ -28,9 +28,9 @@ namespace {
 struct Options {
   std::string scene, folder, selection = "greedy", device;
   std::vector<std::string> objects, overrides;
-  std::string size;           ///< a number or "auto"; empty: as the scene says
-  float texels_per_unit = 0;  ///< 0: as the scene says
-  double max_error = 0;       ///< 0: not asked
+  std::string size;                    ///< a number or "auto"; empty: as the scene says
+  float texels_per_unit = 0;           ///< 0: as the scene says
+  double max_error = 0, max_flip = 0;  ///< 0: not asked
   bool has_max_basis = false;
   BakeOptions bake;
   CommonOptions common;
@@ -134,12 +134,12 @@ BakedMap bake_as_asked(const Options& options, const BakeOptions& bake_options, 
   return baked;
 }
 
-/// The smallest map that keeps --max-error.
+/// The smallest map that keeps --max-error and --max-flip.
 BakedMap bake_smallest(const Options& options, BakeOptions bake_options, const Object& object) {
   // Sizes up to this take seconds to bake; more has to be asked for.
   constexpr int kLargestSize = 4096;
   SearchOptions search;
-  search.max_error = options.max_error, search.bake = std::move(bake_options);
+  search.max_error = options.max_error, search.max_flip = options.max_flip, search.bake = std::move(bake_options);
   if (options.size.empty()) search.bake.size = kLargestSize;
   if (!options.has_max_basis) search.bake.max_basis = kMaxBasis;
   search.verify.pixels = 400;  // bounds of fewer vary so much that chance would choose the map
@@ -152,13 +152,17 @@ BakedMap bake_smallest(const Options& options, BakeOptions bake_options, const O
                      {"basis", step.basis},
                      {"bytes_in_memory", step.bytes},
                      {"bound", step.bound},
+                     {"flip_bound", step.flip_bound},
                      {"weakest", step.weakest}});
     if (options.common.verbose)
-      fmt::print(stderr, "{}: {} texels, {} basis reflectances: error {:.4f}, most of it from {}\n", object.name,
-                 step.size, step.basis, step.bound, step.weakest);
+      fmt::print(stderr, "{}: {} texels, {} basis reflectances: error {:.4f}, FLIP {:.4f}, most of it from {}\n",
+                 object.name, step.size, step.basis, step.bound, step.flip_bound, step.weakest);
   });
   if (!result.remark.empty()) fmt::print("{}: {}\n", object.name, result.remark);
-  return {std::move(result.map), result.report, {{"max_error", options.max_error}, {"steps", steps}}};
+  const auto asked = [](double limit) { return limit > 0 ? nlohmann::json(limit) : nlohmann::json(nullptr); };
+  return {std::move(result.map),
+          result.report,
+          {{"max_error", asked(options.max_error)}, {"max_flip", asked(options.max_flip)}, {"steps", steps}}};
 }
 
 /// Directions that the bake had to add to the paper's.
@@ -188,8 +192,8 @@ BakedMap bake_with_progress(const Options& options, const Object& object) {
     progress.update(fraction);
     return !interrupted();
   };
-  return options.max_error > 0 ? bake_smallest(options, bake_options, object)
-                               : bake_as_asked(options, bake_options, object);
+  return options.max_error > 0 || options.max_flip > 0 ? bake_smallest(options, bake_options, object)
+                                                       : bake_as_asked(options, bake_options, object);
 }
 
 nlohmann::json bake_object(const Options& options, const Object& object) {
@@ -261,6 +265,8 @@ void add_bake_command(CLI::App& app) {
          "--max-error", options->max_error,
          "the smallest map whose error 95 % of the pixels keep at this (redmap verify); --size and --max-basis "
          "are then the most that is tried")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--max-flip", options->max_flip, "the same in units of FLIP; with --max-error both are kept")
       ->check(CLI::PositiveNumber);
   sub->add_option("--selection", options->selection, "who chooses the basis: greedy, or the paper's blocks")
       ->check(CLI::IsMember({"greedy", "paper"}))

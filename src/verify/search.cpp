@@ -1,6 +1,7 @@
 #include "verify/search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -25,15 +26,25 @@ struct Candidate {
   std::shared_ptr<ReductionMap> map;
   BakeReport baked;
   VerifyReport verified;
-  double bound = std::numeric_limits<double>::infinity();
+  double bound = std::numeric_limits<double>::infinity(), flip_bound = bound;
 };
+
+/// "an error of 0.05 and a FLIP error of 0.1"; limits of 0 were not asked for.
+std::string words_of(double error, double flip, bool asked_error, bool asked_flip) {
+  std::string words;
+  if (asked_error) words = fmt::format("an error of {:.4g}", error);
+  if (asked_flip) words += fmt::format("{}a FLIP error of {:.4g}", asked_error ? " and " : "", flip);
+  return words;
+}
 
 class Search {
  public:
   Search(const Object& object, const SearchOptions& options, const std::function<void(const SearchStep&)>& step_done)
       : object_(object), options_(options), step_done_(step_done) {
-    if (!(options.max_error > 0))
-      throw Error("search: max_error: expected a number above 0, found {}", options.max_error);
+    const auto is_limit = [](double limit) { return limit >= 0 && std::isfinite(limit); };
+    if (!is_limit(options.max_error) || !is_limit(options.max_flip) || options.max_error + options.max_flip == 0)
+      throw Error("search: max_error, max_flip: expected numbers from 0 up, one of them above it, found {} and {}",
+                  options.max_error, options.max_flip);
   }
 
   SearchResult run() {
@@ -42,8 +53,8 @@ class Search {
     for (int size = kSmallestMapSize; size <= options_.bake.size; size *= 2) {
       Candidate candidate = try_size(size);
       if (passes(candidate) && confirm(candidate)) return finish(with_smallest_basis(std::move(candidate)));
-      if (size >= kFirstJudged && candidate.bound > kProgress * best && --patience == 0) break;
-      best = std::min(best, candidate.bound);
+      if (size >= kFirstJudged && excess(candidate) > kProgress * best && --patience == 0) break;
+      best = std::min(best, excess(candidate));
       last_ = std::move(candidate);
     }
     refuse();
@@ -64,13 +75,25 @@ class Search {
     verify_options.seed ^= seed;
     candidate.verified = verify(object_, candidate.map, verify_options);
     const auto bound = largest_error_bound(candidate.verified.by_minification);
+    const auto flip_bound = largest_flip_bound(candidate.verified.by_minification);
     if (bound) candidate.bound = *bound;
+    if (flip_bound) candidate.flip_bound = *flip_bound;
     steps_.push_back({candidate.map->size, candidate.map->tolerance, candidate.map->basis.size(),
-                      texel_bytes(*candidate.map), candidate.bound, candidate.verified.certificate.weakest});
+                      texel_bytes(*candidate.map), candidate.bound, candidate.flip_bound,
+                      candidate.verified.certificate.weakest});
     if (step_done_) step_done_(steps_.back());
   }
 
-  bool passes(const Candidate& candidate) const { return candidate.bound <= options_.max_error; }
+  /// The largest bound in units of what was asked: of two limits, that which is harder to keep.
+  double excess(double bound, double flip_bound) const {
+    return std::max(options_.max_error > 0 ? bound / options_.max_error : 0,
+                    options_.max_flip > 0 ? flip_bound / options_.max_flip : 0);
+  }
+  double excess(const Candidate& candidate) const { return excess(candidate.bound, candidate.flip_bound); }
+  bool passes(const Candidate& candidate) const { return excess(candidate) <= 1; }
+  std::string words_of(double error, double flip) const {
+    return redmap::words_of(error, flip, options_.max_error > 0, options_.max_flip > 0);
+  }
 
   /// From the tolerance that the sizes before needed on, as long as the basis is to blame and a larger one helps.
   Candidate try_size(int size) {
@@ -83,7 +106,7 @@ class Search {
       }
       if (best.map && candidate.map->basis.size() == best.map->basis.size()) continue;
       verify_candidate(candidate, 0);
-      if (candidate.bound > kProgress * best.bound) break;
+      if (excess(candidate) > kProgress * excess(best)) break;
       best = std::move(candidate), tolerance_ = tolerance;
       if (passes(best) || best.verified.certificate.weakest != "fit") break;
     }
@@ -116,10 +139,11 @@ class Search {
     SearchResult result{std::move(*candidate.map), candidate.baked, steps_, {}};
     result.map.certificate = candidate.verified.certificate;
     if (!object_.shader->info().has_material) return result;
-    const auto bound = largest_error_bound(verify_averaged_material(object_, result.map, options_.verify));
-    if (!bound || *bound > options_.max_error) return result;
-    result.remark =
-        fmt::format("one averaged material is enough: mip-mapped parameters keep an error of {:.4f} too", *bound);
+    const auto rows = verify_averaged_material(object_, result.map, options_.verify);
+    const auto bound = largest_error_bound(rows), flip_bound = largest_flip_bound(rows);
+    if (!bound || !flip_bound || excess(*bound, *flip_bound) > 1) return result;
+    result.remark = fmt::format("one averaged material is enough: mip-mapped parameters keep {} too",
+                                words_of(*bound, *flip_bound));
     if (result.map.verdict == MapVerdict::kReduces)
       result.map.verdict = MapVerdict::kOneMaterial, result.map.verdict_reason = result.remark;
     return result;
@@ -127,12 +151,12 @@ class Search {
 
   [[noreturn]] void refuse() const {
     if (!last_.map)
-      throw Error("object '{}': no map keeps an error of {}: {}", object_.name, options_.max_error,
+      throw Error("object '{}': no map keeps {}: {}", object_.name, words_of(options_.max_error, options_.max_flip),
                   does_not_reduce_.empty() ? "there is no size to try" : does_not_reduce_);
-    throw Error(
-        "object '{}': no map of up to {} texels keeps an error of {}: at {} it is {:.4f}, most of it from {}: {}",
-        object_.name, options_.bake.size, options_.max_error, last_.map->size, last_.bound,
-        last_.verified.certificate.weakest, last_.verified.certificate.reason);
+    throw Error("object '{}': no map of up to {} texels keeps {}: at {} it keeps {}, most of it from {}: {}",
+                object_.name, options_.bake.size, words_of(options_.max_error, options_.max_flip), last_.map->size,
+                words_of(last_.bound, last_.flip_bound), last_.verified.certificate.weakest,
+                last_.verified.certificate.reason);
   }
 
   const Object& object_;

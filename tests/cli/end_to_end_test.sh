@@ -114,6 +114,7 @@ done
 runs bake scene.toml -o smallest --max-error 0.3 --size 256
 holds smallest/ball.json 'j["search"]["steps"] and j["certificate"]["rows"] and j["size"][1] <= 256'
 refuses "no map of up to 16 texels" bake scene.toml -o none --max-error 1e-6 --size 16
+refuses "keeps a FLIP error of 1e-06" bake scene.toml -o none --max-flip 1e-6 --size 16
 [ ! -e none ] || fail "expected no map of what was refused"
 
 # Maps that do not belong to the scene, or are none.

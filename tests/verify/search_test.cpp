@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace redmap {
@@ -66,6 +68,49 @@ TEST(Search, WhatNoMapKeeps_IsRefusedWithTheReason) {
 TEST(Search, ShaderThatVariesInTime_IsRefusedAtOnce) {
   const std::string reason = refusal("pulsing", 0.1, 64);
   EXPECT_NE(reason.find("time"), std::string::npos) << reason;
+}
+
+TEST(Search, FlipThatWasAsked_IsKept_AndTheSmallestMapDoesNot) {
+  SearchOptions options = options_for(0, 256);
+  options.max_flip = 0.25;
+  const SearchResult result = search_smallest_map(ball("marble"), options);
+  EXPECT_GT(result.map.size, 16);
+  // The last steps may be larger tolerances that were tried in vain.
+  EXPECT_TRUE(std::any_of(result.steps.begin(), result.steps.end(), [&](const SearchStep& step) {
+    return step.size == result.map.size && step.basis == result.map.basis.size() && step.flip_bound <= 0.25;
+  }));
+  EXPECT_EQ(result.steps.front().size, 16);
+  EXPECT_GT(result.steps.front().flip_bound, 0.25);
+}
+
+TEST(Search, OfTwoLimits_TheHarderDecides) {
+  const auto size = [](double max_error, double max_flip) {
+    SearchOptions options = options_for(max_error, 256);
+    options.max_flip = max_flip;
+    return search_smallest_map(ball("marble"), options).map.size;
+  };
+  const int error_alone = size(0.06, 0), flip_alone = size(0, 0.25);
+  EXPECT_EQ(size(0.06, 100), error_alone);
+  EXPECT_EQ(size(100, 0.25), flip_alone);
+  EXPECT_GE(size(0.06, 0.25), std::max(error_alone, flip_alone));
+}
+
+TEST(Search, RefusalOfAFlip_NamesIt) {
+  SearchOptions options = options_for(0, 64);
+  options.max_flip = 1e-5;
+  try {
+    search_smallest_map(ball("scales"), options);
+    FAIL() << "expected Error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("a FLIP error of 1e-05"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("an error of"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Search, LimitsThatAreNone_AreRefused) {
+  SearchOptions options = options_for(0.1, 64);
+  options.max_flip = -1;
+  EXPECT_THROW(search_smallest_map(ball("white"), options), Error);
 }
 
 TEST(Search, ErrorOfNothing_IsRefused) { EXPECT_THROW(search_smallest_map(ball("white"), options_for(0, 64)), Error); }
