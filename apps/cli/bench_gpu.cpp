@@ -41,6 +41,7 @@ nlohmann::json frame_rows(const BenchGpuOptions& options) {
                row.milliseconds_per_frame, row.rmse_interior);
     json.push_back({{"shader", row.shader},
                     {"lights", row.lights},
+                    {"minification", options.frames.minification},
                     {"method", method_name(row)},
                     {"spp", row.spp},
                     {"milliseconds_per_frame", row.milliseconds_per_frame},
@@ -112,6 +113,9 @@ void add_bench_gpu(CLI::App& bench_app) {
   sub->add_option("--lights", options->frames.lights, "Numbers of lights of the rows")
       ->delimiter(',')
       ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  sub->add_option("--minification", options->frames.minification, "Texels across a pixel in a timed frame")
+      ->check(CLI::Range(0.1, 64.0))
       ->capture_default_str();
   sub->add_option("--width", options->frames.width, "Pixels of a timed frame")
       ->check(CLI::Range(16, 16384))

@@ -13,7 +13,6 @@ namespace redmap::bench {
 
 namespace {
 
-constexpr double kMinification = 2;
 constexpr int kRows = 3, kColumns = 5;
 /// Between the centres of balls of radius 1.
 constexpr float kSpacing = 2.1f;
@@ -26,7 +25,8 @@ struct MethodCase {
   bool draws_one_basis = false;
 };
 constexpr MethodCase kCases[] = {{Method::kOriginal, 1}, {Method::kSupersample, 4}, {Method::kSupersample, 16},
-                                 {Method::kMap, 1},      {Method::kMap, 4},         {Method::kMap, 1, true}};
+                                 {Method::kMap, 1},      {Method::kMap, 4},         {Method::kMap, 1, true},
+                                 {Method::kMap, 4, true}};
 
 DeviceRenderOptions options_of(const MethodCase& c) {
   DeviceRenderOptions options;
@@ -110,7 +110,7 @@ std::vector<FrameTimeRow> measure_frame_times(const FrameTimeOptions& options) {
     BakeOptions bake_options;
     bake_options.size = options.map_size;
     const auto map = std::make_shared<const ReductionMap>(bake(*surface, *shader, bake_options));
-    Scene one = make_bench_scene(surface, shader, options.map_size, kMinification, 0, kErrorPixels);
+    Scene one = make_bench_scene(surface, shader, options.map_size, options.minification, 0, kErrorPixels);
     for (const int lights : options.lights) {
       Scene wall = wall_of(one, options);
       set_lights(one, lights, 6), set_lights(wall, lights, 12);

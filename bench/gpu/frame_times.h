@@ -13,6 +13,7 @@ struct FrameTimeOptions {
   std::string device;  ///< as in Device::open()
   /// Of the library: one that costs almost nothing itself, and such as productions have.
   std::vector<std::string> shaders{"checker", "wood", "worn_paint", "stone"};
+  double minification = 2;  ///< texels of the map across a pixel, in the median
   std::vector<int> lights{1, 16};
   int width = 1920, height = 1080;
   int map_size = 1024;

@@ -40,6 +40,59 @@ vec3 redmap_spread_out(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS]) {
   return redmap_sum;
 }
 
+// What of the basis is constant or a cosine, mixed once for all lights: the models' at a middle angle.
+const float redmap_middle_angle = 30.0;
+struct RedmapSmooth {
+  vec3 constant, cosine;
+};
+RedmapSmooth redmap_smooth_of(uint redmap_b) {
+  RedmapLobes redmap_lobes = redmap_lobes_at(redmap_b, redmap_middle_angle);
+  return RedmapSmooth(redmap_lobes.constant, redmap_lobes.cosine);
+}
+// How bright a basis reflectance gets: in the middle of its highlight.
+float redmap_brightness(uint redmap_b) {
+  RedmapLobes redmap_lobes = redmap_lobes_at(redmap_b, redmap_middle_angle);
+  vec3 redmap_sum = redmap_lobes.constant + redmap_lobes.cosine;
+  for (uint redmap_k = 0u; redmap_k < uint(REDMAP_WIDTHS); redmap_k++) redmap_sum += redmap_lobes.amplitude[redmap_k];
+  return max(redmap_luminance(redmap_sum), 1e-6);
+}
+vec3 redmap_at_cosine(RedmapSmooth redmap_s, float redmap_c) { return redmap_s.constant + redmap_s.cosine * redmap_c; }
+
+// One basis reflectance a light, drawn by its part of the brightness (paper, section 7, which draws one for all lights by
+// weight). Lights of one sample draw from numbers the golden section apart, so that each reflectance comes as often as
+// it should. Drawn is only what the smooth part, a control variate, leaves over.
+vec3 redmap_drawn(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS], uint redmap_sample) {
+  float redmap_total = 0.0, redmap_bright[REDMAP_BASIS];
+  RedmapSmooth redmap_mixed = RedmapSmooth(vec3(0.0), vec3(0.0));
+  for (uint redmap_b = 0u; redmap_b < uint(REDMAP_BASIS); redmap_b++) {
+    RedmapSmooth redmap_s = redmap_smooth_of(redmap_b);
+    redmap_mixed.constant += redmap_w[redmap_b] * redmap_s.constant;
+    redmap_mixed.cosine += redmap_w[redmap_b] * redmap_s.cosine;
+    redmap_bright[redmap_b] = redmap_brightness(redmap_b);
+    redmap_total += redmap_w[redmap_b] * redmap_bright[redmap_b];
+  }
+  vec3 redmap_sum = redmap_emission(redmap_w);
+  vec3 redmap_v = redmap_in_frame(redmap_hit_.to_viewer, redmap_hit_.normal, redmap_hit_.tangent);
+  float redmap_first = redmap_random(redmap_sample);
+  for (uint redmap_i = 0u; redmap_i < redmap_picture.z; redmap_i++) {
+    float redmap_wanted = redmap_total * fract(redmap_first + 0.61803399 * float(redmap_i)), redmap_below = 0.0;
+    uint redmap_chosen = 0u;
+    for (uint redmap_b = 0u; redmap_b < uint(REDMAP_BASIS); redmap_b++) {
+      if (redmap_w[redmap_b] > 0.0 && redmap_below <= redmap_wanted) redmap_chosen = redmap_b;
+      redmap_below += redmap_w[redmap_b] * redmap_bright[redmap_b];
+    }
+    vec3 redmap_l;
+    vec3 redmap_e = redmap_arriving(redmap_i, redmap_hit_, redmap_l);
+    redmap_l = redmap_in_frame(redmap_l, redmap_hit_.normal, redmap_hit_.tangent);
+    float redmap_c = max(redmap_l.z, 0.0);
+    vec3 redmap_left = redmap_of_basis(redmap_chosen, redmap_l, redmap_v) -
+                       redmap_at_cosine(redmap_smooth_of(redmap_chosen), redmap_c);
+    redmap_sum += redmap_e * (redmap_at_cosine(redmap_mixed, redmap_c) +
+                              redmap_left * (redmap_total / redmap_bright[redmap_chosen]));
+  }
+  return redmap_sum;
+}
+
 vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sample) {
 #ifdef REDMAP_MENDS
   float redmap_w[REDMAP_BASIS] = redmap_look_up_over_seams(redmap_hit_, redmap_a);
