@@ -165,9 +165,8 @@ DeviceRenderOptions device_options(const RenderCommandOptions& options, const Re
 }
 
 RenderFrame device_frames(const Scene& scene, const DeviceRenderOptions& options, const std::string& device) {
-  std::vector<std::shared_ptr<const ReductionMap>> maps;
-  for (const ObjectData& data : load_object_data(scene, options.method)) maps.push_back(data.map);
-  const auto renderer = std::make_shared<DeviceRenderer>(Device::open(device), scene, options, maps);
+  const auto renderer =
+      std::make_shared<DeviceRenderer>(Device::open(device), scene, options, load_object_data(scene, options.method));
   return [renderer](const Scene& moment, int frame) {
     RenderedFrame rendered;
     rendered.seconds = renderer->render(moment, frame);

@@ -20,20 +20,22 @@ ObjectData bake_data(const Surface& surface, const Shader& shader, const ExportB
   return data;
 }
 
+using StandIn = std::function<std::unique_ptr<ObjectShading>(const Object&)>;
+
 /// All that is exported of a map, to be rendered.
 struct Exported {
   std::vector<MaterialFit> fits;
-  ObjectData materials, one;
+  StandIn materials, one;
 };
 Exported export_all(const ObjectData& data, const Shader& shader) {
-  Exported all{fit_basis(*data.map, shader), data, data};
+  Exported all{fit_basis(*data.map, shader), {}, {}};
   const auto masks = std::make_shared<const Masks>(mask_textures(*data.map));
   const auto normals = std::make_shared<const std::optional<NormalTextures>>(normal_textures(*data.map));
   const auto one = std::make_shared<const OneMaterial>(average_material(*data.map, all.fits));
-  all.materials.stand_in = [masks, normals, fits = all.fits](const Object& object) {
+  all.materials = [masks, normals, fits = all.fits](const Object& object) {
     return make_masked_shading(object.shader, *masks, fits, *normals);
   };
-  all.one.stand_in = [one](const Object& object) { return make_one_material_shading(object.shader, *one); };
+  all.one = [one](const Object& object) { return make_one_material_shading(object.shader, *one); };
   return all;
 }
 
@@ -43,9 +45,9 @@ struct View {
   std::vector<PixelClass> classes;
 };
 
-double error_of(const std::vector<View>& views, const ObjectData& data, Method method) {
+double error_of(const std::vector<View>& views, const ObjectData& data, Method method, const StandIn& stand_in = {}) {
   RenderOptions options;
-  options.method = method;
+  options.method = method, options.stand_in = stand_in;
   options.spp = method == Method::kSupersample ? 64 : 0;
   ErrorSums sums;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -70,8 +72,8 @@ ExportBenchRow measure(const std::shared_ptr<const Surface>& surface, const std:
   row.verdict = verdict_name(data.map->verdict), row.basis = static_cast<int>(data.map->basis.size());
   for (const MaterialFit& fit : exported.fits) row.fit_errors.push_back(fit.error);
   row.rmse_map = error_of(views, data, Method::kMap);
-  row.rmse_materials = error_of(views, exported.materials, Method::kMap);
-  row.rmse_one_material = error_of(views, exported.one, Method::kMap);
+  row.rmse_materials = error_of(views, data, Method::kMap, exported.materials);
+  row.rmse_one_material = error_of(views, data, Method::kMap, exported.one);
   row.rmse_64 = error_of(views, data, Method::kSupersample);
   row.reference_residual = between_halves.interior() / 2;
   return row;

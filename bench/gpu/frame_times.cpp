@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bake/bake.h"
+#include "bake/baselines.h"
 #include "device/device.h"
 #include "gpu/device_renderer.h"
 #include "metrics/compare.h"
@@ -24,15 +25,15 @@ struct MethodCase {
   int spp;
   bool draws_one_basis = false;
 };
-constexpr MethodCase kCases[] = {{Method::kOriginal, 1}, {Method::kSupersample, 4}, {Method::kSupersample, 16},
-                                 {Method::kMap, 1},      {Method::kMap, 4},         {Method::kMap, 1, true},
-                                 {Method::kMap, 4, true}};
+constexpr MethodCase kCases[] = {{Method::kOriginal, 1},  {Method::kSupersample, 4}, {Method::kSupersample, 16},
+                                 {Method::kMap, 1},       {Method::kMap, 4},         {Method::kMap, 1, true},
+                                 {Method::kMap, 4, true}, {Method::kParameters, 1},  {Method::kParameters, 4}};
 
 DeviceRenderOptions options_of(const MethodCase& c) {
   DeviceRenderOptions options;
   options.method = c.method;
   options.quality = c.spp == 1 ? Quality::kFast : Quality::kDefault;
-  options.spp = c.method == Method::kMap ? 0 : c.spp;
+  options.spp = c.method == Method::kMap || c.method == Method::kParameters ? 0 : c.spp;
   options.draws_one_basis = c.draws_one_basis;
   return options;
 }
@@ -91,8 +92,8 @@ Reference make_reference(const Scene& scene, int spp) {
 }
 
 double error_of(const std::shared_ptr<Device>& device, const Scene& scene, const DeviceRenderOptions& options,
-                const std::shared_ptr<const ReductionMap>& map, const Reference& reference) {
-  DeviceRenderer renderer(device, scene, options, {map});
+                const ObjectData& data, const Reference& reference) {
+  DeviceRenderer renderer(device, scene, options, {data});
   renderer.render(scene, 1);
   CompareOptions compare;
   compare.mask = &reference.mask, compare.flip = false;
@@ -109,23 +110,31 @@ std::vector<FrameTimeRow> measure_frame_times(const FrameTimeOptions& options) {
     const auto shader = make_library_shader(name);
     BakeOptions bake_options;
     bake_options.size = options.map_size;
-    const auto map = std::make_shared<const ReductionMap>(bake(*surface, *shader, bake_options));
+    ObjectData data;
+    data.map = std::make_shared<const ReductionMap>(bake(*surface, *shader, bake_options));
+    const bool has_parameters = shader->info().has_material && !shader->info().emits;
+    if (has_parameters)
+      data.parameters =
+          std::make_shared<const Pyramid<float>>(build_parameter_pyramid(*surface, *shader, options.map_size));
+    if (has_parameters && shader->info().perturbs_normals)
+      data.slopes = std::make_shared<const Pyramid<float>>(build_slope_pyramid(*surface, *shader, options.map_size));
     Scene one = make_bench_scene(surface, shader, options.map_size, options.minification, 0, kErrorPixels);
     for (const int lights : options.lights) {
       Scene wall = wall_of(one, options);
       set_lights(one, lights, 6), set_lights(wall, lights, 12);
       const Reference reference = make_reference(one, options.reference_spp);
-      const std::vector<std::shared_ptr<const ReductionMap>> maps(wall.objects.size(), map);
+      const std::vector<ObjectData> all(wall.objects.size(), data);
       for (const MethodCase& c : kCases) {
         if (options.cancelled && options.cancelled()) return rows;
+        if (c.method == Method::kParameters && !has_parameters) continue;
         const DeviceRenderOptions method = options_of(c);
         FrameTimeRow row{name, lights, c.method, c.draws_one_basis, c.spp};
-        DeviceRenderer renderer(device, wall, method, maps);
+        DeviceRenderer renderer(device, wall, method, all);
         row.milliseconds_per_frame = median_milliseconds(renderer, wall, options.frames);
-        row.rmse_interior = error_of(device, one, method, map, reference);
+        row.rmse_interior = error_of(device, one, method, data, reference);
         rows.push_back(row);
-        const double all = static_cast<double>(options.shaders.size() * options.lights.size() * std::size(kCases));
-        if (options.progress) options.progress(static_cast<double>(rows.size()) / all);
+        const double cases = static_cast<double>(options.shaders.size() * options.lights.size() * std::size(kCases));
+        if (options.progress) options.progress(static_cast<double>(rows.size()) / cases);
       }
     }
   }

@@ -96,7 +96,7 @@ std::vector<ParityRow> measure_parity(const std::shared_ptr<const Surface>& surf
     ObjectData data;
     data.map = map;
     Renderer cpu_renderer(first, on_cpu, {data});
-    DeviceRenderer device_renderer(device, first, on_device, {map});
+    DeviceRenderer device_renderer(device, first, on_device, {data});
     for (const double distance : options.distances) {
       if (options.cancelled && options.cancelled()) return rows;
       const Scene scene = make_bench_scene(surface, shader, options.map_size, distance, 0, options.pixels);

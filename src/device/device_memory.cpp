@@ -10,7 +10,6 @@ namespace {
 
 using vk::ImageUsageFlagBits;
 
-constexpr vk::Format kTexels = vk::Format::eR8G8B8A8Unorm;
 constexpr vk::Format kNumbers = vk::Format::eR32Uint;
 constexpr vk::Format kDepth = vk::Format::eD32Sfloat;
 
@@ -47,14 +46,14 @@ Extent level_extent(Extent base, int level) {
   return {std::max(1, base.width >> level), std::max(1, base.height >> level)};
 }
 
-std::vector<vk::BufferImageCopy> level_copies(Extent base, int layers, int levels) {
+std::vector<vk::BufferImageCopy> level_copies(Extent base, int layers, int levels, std::size_t texel_bytes) {
   std::vector<vk::BufferImageCopy> copies;
   std::size_t offset = 0;
   for (int level = 0; level < levels; ++level) {
     const Extent extent = level_extent(base, level);
     const vk::ImageSubresourceLayers part(vk::ImageAspectFlagBits::eColor, level, 0, layers);
     copies.emplace_back(offset, 0, 0, part, vk::Offset3D(), vk::Extent3D(extent.width, extent.height, 1));
-    offset += std::size_t{4} * extent.width * extent.height * layers;
+    offset += texel_bytes * extent.width * extent.height * layers;
   }
   return copies;
 }
@@ -104,16 +103,18 @@ LocalBuffer::LocalBuffer(LocalBuffer&&) noexcept = default;
 LocalBuffer& LocalBuffer::operator=(LocalBuffer&&) noexcept = default;
 std::size_t LocalBuffer::size() const { return impl_->size; }
 
-LayeredTexture::LayeredTexture(const Device& device, Extent base, int layers, int levels, bool wraps_u,
+LayeredTexture::LayeredTexture(const Device& device, TexelKind kind, Extent base, int layers, int levels, bool wraps_u,
                                std::span<const std::byte> texels)
     : impl_(new Impl) {
   impl_->device = device.impl();
   check_size(device, base, layers);
+  const bool bytes = kind == TexelKind::kBytes;
+  const vk::Format format = bytes ? vk::Format::eR8G8B8A8Unorm : vk::Format::eR16G16B16A16Sfloat;
   DeviceBuffer staging(device, texels.size());
   std::memcpy(staging.data(), texels.data(), texels.size());
   on_device(*impl_->device, [&] {
     impl_->image =
-        make_image(*impl_->device, image_info(kTexels, base, layers, levels, ImageUsageFlagBits::eTransferDst),
+        make_image(*impl_->device, image_info(format, base, layers, levels, ImageUsageFlagBits::eTransferDst),
                    vk::ImageAspectFlagBits::eColor);
     vk::SamplerCreateInfo sampler({}, vk::Filter::eLinear, vk::Filter::eLinear, vk::SamplerMipmapMode::eLinear);
     sampler.addressModeU = wraps_u ? vk::SamplerAddressMode::eRepeat : vk::SamplerAddressMode::eClampToEdge;
@@ -127,7 +128,7 @@ LayeredTexture::LayeredTexture(const Device& device, Extent base, int layers, in
       commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eTransfer, {}, {}, {},
                                transition(image, Layout::eUndefined, Layout::eTransferDstOptimal));
       commands.copyBufferToImage(*staging.impl().buffer, image, Layout::eTransferDstOptimal,
-                                 level_copies(base, layers, levels));
+                                 level_copies(base, layers, levels, bytes ? 4 : 8));
       commands.pipelineBarrier(Stage::eTransfer, Stage::eAllCommands, {}, {}, {},
                                transition(image, Layout::eTransferDstOptimal, Layout::eShaderReadOnlyOptimal));
     });

@@ -30,12 +30,17 @@ class LocalBuffer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Layers of RGBA bytes (0 to 1) with their mip levels, each half the one before, rounded down and at least 1. Shaders
-/// sample it as a sampler2DArray: linear within and between levels; v is clamped, u repeated or clamped.
+enum class TexelKind {
+  kBytes,  ///< RGBA, 0 to 1
+  kHalves  ///< RGBA, 16-bit floats
+};
+
+/// Layers of texels with their mip levels, each half the one before, rounded down and at least 1. Shaders sample it as
+/// a sampler2DArray: linear within and between levels; v is clamped, u repeated or clamped.
 class LayeredTexture {
  public:
   /// `texels`: level by level, layer by layer, row by row.
-  LayeredTexture(const Device& device, Extent base, int layers, int levels, bool wraps_u,
+  LayeredTexture(const Device& device, TexelKind kind, Extent base, int layers, int levels, bool wraps_u,
                  std::span<const std::byte> texels);
   ~LayeredTexture();
   LayeredTexture(LayeredTexture&&) noexcept;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu/map_memory.h"
+#include "gpu/parameter_memory.h"
 #include "scene/placement.h"
 #include "surface/mesh.h"
 
@@ -83,11 +84,24 @@ DeviceObject::Geometry DeviceObject::make_geometry() const {
           LocalBuffer(device, std::size_t{4})};
 }
 
-DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, std::shared_ptr<const ReductionMap> map,
-                           bool shadows, std::uint32_t first_number, std::uint32_t index)
+/// With what else it takes to read them.
+LayeredTexture DeviceObject::make_texels(const ObjectData& data) {
+  if (data.map) {
+    set_map_traits(*data.map, *surface_, traits_), set_map_block(*data.map, values_);
+    data_ = LocalBuffer(*device_, bytes_of_all(map_data(*data.map, *surface_, traits_)));
+    return make_weight_texture(*device_, *data.map);
+  }
+  if (data.parameters) {
+    set_parameter_traits(data, traits_), set_parameter_block(data, values_);
+    return make_parameter_texture(*device_, data);
+  }
+  return LayeredTexture(*device_, TexelKind::kBytes, {1, 1}, 1, 1, false, std::vector<std::byte>(4));
+}
+
+DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, const ObjectData& data, bool shadows,
+                           std::uint32_t first_number, std::uint32_t index)
     : device_(cache.device()),
       surface_(object.surface),
-      map_(std::move(map)),
       transform_(object.transform),
       geometry_(make_geometry()),
       block_(*device_, sizeof(ObjectBlock)),
@@ -100,13 +114,7 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, std::shar
   traits_.shadows = shadows;
   const Vec3 size = surface_->upper() - surface_->lower();
   values_.shape = {1, 0.5f * size.x, size.y, average_scale(*surface_)};
-  if (map_) {
-    set_map_traits(*map_, *surface_, traits_), set_map_block(*map_, values_);
-    texels_.push_back(make_weight_texture(*device_, *map_));
-    data_ = LocalBuffer(*device_, bytes_of_all(map_data(*map_, *surface_, traits_)));
-  } else {
-    texels_.push_back(LayeredTexture(*device_, {1, 1}, 1, 1, false, std::vector<std::byte>(4)));
-  }
+  texels_.push_back(make_texels(data));
   const TriangleMesh* mesh = surface_->mesh();
   numbers_ = mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
   draw_triangles_ = mesh ? numbers_ : kBoxTriangles;
@@ -122,13 +130,14 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, std::shar
   group_ = &cache.compute(group_text(), inputs);
   const ShaderSources text = shade_text(shader, info, traits_);
   for (const ShadeStage stage : {ShadeStage::kBind, ShadeStage::kNear, ShadeStage::kFar, ShadeStage::kSpread}) {
-    // The shader itself needs one stage; maps with normals shade all in one.
-    if (stage != ShadeStage::kNear && !map_) continue;
-    if (stage == ShadeStage::kSpread && traits_.has_normals) continue;
+    // The shader itself needs one stage; parameters and maps with normals shade all that is filtered in one.
+    if (stage != ShadeStage::kNear && traits_.channels == 0) continue;
+    if (stage == ShadeStage::kBind && traits_.basis == 0) continue;
+    if (stage == ShadeStage::kSpread && (traits_.basis == 0 || traits_.has_normals)) continue;
     shade_[static_cast<int>(stage)] = &cache.shade(text, !info.file.empty(), inputs, stage);
   }
   parameters_ = LocalBuffer(*device_, std::span<const std::byte>(shader.parameters));
-  if (map_) patterns_ = LocalBuffer(*device_, cache.pattern_size(text) * map_->basis.size());
+  if (traits_.basis > 0) patterns_ = LocalBuffer(*device_, cache.pattern_size(text) * traits_.basis);
 }
 
 void DeviceObject::attach(const FrameMemory& memory, CommandList& commands) {
@@ -194,7 +203,7 @@ bool DeviceObject::cover(BandCall& call, const CameraRays& camera, int samples_a
 void DeviceObject::record_shading(CommandList& commands, BandCall call, const CameraRays& camera, int samples_a_side,
                                   int columns) const {
   if (!cover(call, camera, samples_a_side, columns)) return;
-  if (!map_) call.filters = 0;
+  if (traits_.channels == 0) call.filters = 0;
   commands.dispatch(*sort_, *bindings_, bytes_of(call), Workgroups{(call.blocks.w + 63) / 64, 1});
   commands.dispatch(*group_, *bindings_, bytes_of(call), Workgroups{1, 1});
   // Those that are blended add to what the shader itself left.

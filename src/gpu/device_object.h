@@ -7,7 +7,7 @@
 
 #include "gpu/frame_blocks.h"
 #include "gpu/object_text.h"
-#include "map/reduction_map.h"
+#include "map/object_data.h"
 #include "scene/camera_rays.h"
 #include "scene/scene.h"
 
@@ -42,13 +42,13 @@ struct FrameMemory {
 
 class DeviceObject {
  public:
-  /// `first_number`: of the object's triangles in the picture of numbers; `index`: of the object. `map`: null where the
-  /// shader itself is to be used. Throws Error on surfaces, shaders and maps that this renderer does not take.
-  DeviceObject(PipelineCache& cache, const Object& object, std::shared_ptr<const ReductionMap> map, bool shadows,
+  /// `first_number`: of the object's triangles in the picture of numbers; `index`: of the object. `data`: a map, or
+  /// parameters, or neither where the shader itself is to be used. Throws Error on surfaces, shaders and maps that this
+  /// renderer does not take.
+  DeviceObject(PipelineCache& cache, const Object& object, const ObjectData& data, bool shadows,
                std::uint32_t first_number, std::uint32_t index);
 
   std::uint32_t numbers() const { return numbers_; }
-  bool filters() const { return map_ != nullptr; }
 
   /// To be called once, before the first frame. Binds the basis on the device.
   void attach(const FrameMemory& memory, CommandList& commands);
@@ -66,11 +66,11 @@ class DeviceObject {
     LocalBuffer positions, indices, faces;
   };
   Geometry make_geometry() const;
+  LayeredTexture make_texels(const ObjectData& data);
   bool cover(BandCall& call, const CameraRays& camera, int samples_a_side, int columns) const;
 
   std::shared_ptr<Device> device_;
   std::shared_ptr<const Surface> surface_;
-  std::shared_ptr<const ReductionMap> map_;
   ObjectTraits traits_;
   ObjectBlock values_;
   Transform transform_;

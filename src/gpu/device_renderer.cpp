@@ -6,7 +6,7 @@
 
 #include "gpu/device_object.h"
 #include "gpu/shadow_views.h"
-#include "scene/map_shader.h"
+#include "scene/object_data.h"
 #include "user_shader/stages.h"
 
 namespace redmap {
@@ -51,9 +51,9 @@ FrameBlock frame_block(const Scene& scene, int samples, int frame) {
 }  // namespace
 
 void require_device_method(const DeviceRenderOptions& options) {
-  if (options.method == Method::kParameters || options.method == Method::kPaper)
-    throw Error("method {}: expected map, original or supersample on a device: render it without --device",
-                kMethodNames[static_cast<std::size_t>(options.method)]);
+  if (options.method == Method::kPaper)
+    throw Error(
+        "method paper: expected map, original, supersample or parameters on a device: render it without --device");
   constexpr int kMostSamples = 1024;
   const int side = side_of(options);
   if (options.spp < 0 || options.spp > kMostSamples || (options.spp > 0 && side * side != options.spp))
@@ -113,7 +113,7 @@ struct DeviceRenderer::Impl {
   mutable CommandList commands;
 
   Impl(std::shared_ptr<Device> opened, const Scene& scene, const DeviceRenderOptions& chosen, int side,
-       const std::vector<std::shared_ptr<const ReductionMap>>& maps);
+       const std::vector<ObjectData>& data);
   void make_targets(const Scene& scene);
   void record_uploads(const Scene& scene, int frame);
   void record_shadows();
@@ -122,7 +122,7 @@ struct DeviceRenderer::Impl {
 };
 
 DeviceRenderer::Impl::Impl(std::shared_ptr<Device> opened, const Scene& scene, const DeviceRenderOptions& chosen,
-                           int side, const std::vector<std::shared_ptr<const ReductionMap>>& maps)
+                           int side, const std::vector<ObjectData>& data)
     : device(std::move(opened)),
       options(chosen),
       samples(side),
@@ -133,7 +133,7 @@ DeviceRenderer::Impl::Impl(std::shared_ptr<Device> opened, const Scene& scene, c
   const bool shadows = std::ranges::any_of(scene.lights, &Light::shadows);
   std::uint32_t next = 1;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    objects.emplace_back(cache, scene.objects[i], maps[i], shadows, next, static_cast<std::uint32_t>(i));
+    objects.emplace_back(cache, scene.objects[i], data[i], shadows, next, static_cast<std::uint32_t>(i));
     names.push_back(scene.objects[i].shader->info().name);
     next += objects.back().numbers();
   }
@@ -186,7 +186,8 @@ void DeviceRenderer::Impl::record_band(const CameraRays& camera, int band) {
   BandCall call;
   call.first_row = static_cast<std::uint32_t>(band * to.band_rows);
   call.rows = static_cast<std::uint32_t>(std::min(to.band_rows, to.extent.height * samples - band * to.band_rows));
-  call.filters = options.method == Method::kMap, call.draws = options.draws_one_basis;
+  call.filters = options.method == Method::kMap || options.method == Method::kParameters,
+  call.draws = options.draws_one_basis;
   commands.begin_target(to.seen);
   for (const DeviceObject& object : objects)
     object.record_draw(commands, TargetKind::kNumbers, static_cast<std::uint32_t>(to.shadow_layers + band));
@@ -209,23 +210,27 @@ void DeviceRenderer::Impl::check_shaders() {
 }
 
 DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scene, const DeviceRenderOptions& options,
-                               const std::vector<std::shared_ptr<const ReductionMap>>& maps) {
+                               const std::vector<ObjectData>& data) {
   require_device_method(options);
   if (scene.lights.size() > kMostLights)
     throw Error("{} lights: expected at most {} on a device", scene.lights.size(), kMostLights);
-  std::vector<std::shared_ptr<const ReductionMap>> used(scene.objects.size());
+  std::vector<ObjectData> used(scene.objects.size());
   int side = side_of(options);
-  for (std::size_t i = 0; i < used.size() && options.method == Method::kMap; ++i) {
+  for (std::size_t i = 0; i < used.size(); ++i) {
     const Object& object = scene.objects[i];
-    if (i >= maps.size() || !maps[i])
-      throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
-    require_map_of(object, *maps[i]);
-    if (!maps[i]->tangents.empty())
+    const ObjectData found = i < data.size() ? data[i] : ObjectData{};
+    if (options.method == Method::kParameters) {
+      require_parameters(object, found);
+      used[i] = {nullptr, found.parameters, nullptr, found.slopes};
+    }
+    if (options.method != Method::kMap) continue;
+    require_map(object, found);
+    if (!found.map->tangents.empty())
       throw Error("object '{}': expected a map without turning grains: render it without --device", object.name);
-    if (maps[i]->verdict == MapVerdict::kDoesNotReduce)
+    if (found.map->verdict == MapVerdict::kDoesNotReduce)
       side = kFallbackSide;
     else
-      used[i] = maps[i];
+      used[i].map = found.map;
   }
   impl_ = std::make_unique<Impl>(std::move(device), scene, options, side, used);
 }

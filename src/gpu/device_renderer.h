@@ -8,19 +8,20 @@
 
 #include "base/image.h"
 #include "device/device.h"
-#include "map/reduction_map.h"
+#include "map/object_data.h"
 #include "scene/method.h"
 #include "scene/scene.h"
 
 namespace redmap {
 
 struct DeviceRenderOptions {
-  Method method = Method::kMap;         ///< kOriginal, kSupersample or kMap
+  Method method = Method::kMap;         ///< any but kPaper
   Quality quality = Quality::kDefault;  ///< one sample a pixel or 2 x 2, for original and map
-  /// A square number of samples a pixel, on a regular grid. supersample: 0 means 16. original: 0 means the map's.
+  /// A square number of samples a pixel, on a regular grid. supersample: 0 means 16. original: 0 means the
+  /// map's.
   int spp = 0;
-  /// Each sample takes one basis reflectance for all lights, drawn by its weight anew every frame: noise instead of
-  /// time that grows with the basis (paper, section 7). Highlights are those of the mean normal.
+  /// Each sample takes one basis reflectance a light, drawn anew every frame: noise instead of time that grows with the
+  /// basis (paper, section 7). Highlights are those of the mean normal; maps with normals take all.
   bool draws_one_basis = false;
 };
 
@@ -29,11 +30,11 @@ void require_device_method(const DeviceRenderOptions& options);
 
 class DeviceRenderer {
  public:
-  /// `maps` has one entry an object, for method map; null where it is not needed. Throws Error where a map is missing
-  /// or of something else, on what this renderer does not take (plug-ins, glass, deformed meshes, more than 64 lights),
-  /// and where the device fails.
+  /// `data` has one entry an object. Throws Error where something that the method needs is missing or of something
+  /// else, on what this renderer does not take (plug-ins, glass, deformed meshes, more than 64 lights), and where the
+  /// device fails.
   DeviceRenderer(std::shared_ptr<Device> device, const Scene& scene, const DeviceRenderOptions& options,
-                 const std::vector<std::shared_ptr<const ReductionMap>>& maps);
+                 const std::vector<ObjectData>& data);
   ~DeviceRenderer();
   DeviceRenderer(DeviceRenderer&&) noexcept;
   DeviceRenderer& operator=(DeviceRenderer&&) noexcept;

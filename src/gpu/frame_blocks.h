@@ -31,7 +31,7 @@ struct ObjectBlock {
   Vec4 axis_x, axis_y, axis_z, shape;
   UVec4 numbers;
   Vec4 map;
-  std::array<Vec4, 4> scales;
+  std::array<Vec4, 6> scales;
 };
 
 /// Most lights of a scene.

@@ -12,14 +12,6 @@
 namespace redmap {
 namespace {
 
-bool is_covered(const WeightPyramid& weights) {
-  for (int level = 0; level < weights.levels(); ++level)
-    for (int y = 0; y < weights.extent(level).height; ++y)
-      for (int x = 0; x < weights.extent(level).width; ++x)
-        if (weights.coverage(level, x, y) < 1) return false;
-  return true;
-}
-
 int widths_of(const WidthsInUse& in_use) { return static_cast<int>(std::ranges::count(in_use, true)); }
 
 LobeModel model_of(const ReductionMap& map, std::size_t basis) {
@@ -91,7 +83,7 @@ void append_clusters(const SurfaceClusters& clusters, Words& words) {
 }  // namespace
 
 void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTraits& traits) {
-  traits.basis = static_cast<int>(map.basis.size());
+  traits.basis = traits.channels = static_cast<int>(map.basis.size());
   traits.has_coverage = !is_covered(map.weights);
   traits.wraps_u = map.weights.wraps_u();
   traits.has_normals = !map.normals.empty();
@@ -116,7 +108,7 @@ void set_map_block(const ReductionMap& map, ObjectBlock& block) {
                static_cast<float>(map.weights.levels()), least};
   float scales[kMaxChannels] = {};
   std::ranges::copy(map.weights.scales(), scales);
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < kMaxChannels / 4; ++i)
     block.scales[i] = {scales[4 * i], scales[4 * i + 1], scales[4 * i + 2], scales[4 * i + 3]};
 }
 
@@ -145,7 +137,7 @@ WeightTexels weight_texels(const ReductionMap& map) {
 LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map) {
   const WeightTexels all = weight_texels(map);
   const WeightPyramid& weights = map.weights;
-  return LayeredTexture(device, weights.extent(0), all.layers, weights.levels(), weights.wraps_u(), all.texels);
+  return LayeredTexture(device, TexelKind::kBytes, weights.extent(0), all.layers, weights.levels(), weights.wraps_u(), all.texels);
 }
 
 std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surface, const ObjectTraits& traits) {

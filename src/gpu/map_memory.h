@@ -10,6 +10,16 @@
 
 namespace redmap {
 
+/// Whether coverage is 1 everywhere.
+template <typename Component>
+bool is_covered(const Pyramid<Component>& pyramid) {
+  for (int level = 0; level < pyramid.levels(); ++level)
+    for (int y = 0; y < pyramid.extent(level).height; ++y)
+      for (int x = 0; x < pyramid.extent(level).width; ++x)
+        if (pyramid.coverage(level, x, y) < 1) return false;
+  return true;
+}
+
 /// What the texts of an object with this map depend on.
 void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTraits& traits);
 /// The map's part of an object's block.

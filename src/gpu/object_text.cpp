@@ -17,6 +17,7 @@ std::string head(SurfaceKind surface) {
 std::string definitions(const ShaderInfo& info, const ObjectTraits& traits) {
   std::string lines = fmt::format("#define REDMAP_BASIS {}\n#define REDMAP_HAS_COVERAGE {}\n", traits.basis,
                                   traits.has_coverage ? 1 : 0);
+  lines += fmt::format("#define REDMAP_CHANNELS {}\n#define REDMAP_SLOPES {}\n", traits.channels, traits.first_slope);
   lines += fmt::format("#define REDMAP_WRAPS {}\n#define REDMAP_WIDTHS {}\n", traits.wraps_u ? 1 : 0, traits.widths);
   lines += fmt::format("#define REDMAP_LEAVES {}\n", traits.leaves);
   if (traits.mends_seams) lines += "#define REDMAP_MENDS\n";
@@ -49,12 +50,15 @@ ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, con
   std::string before = kernel_texts(
       {"view", "object", "analytic", "frame", "hit_type", "hit", "footprint", "own_memory", "place", "lights"});
   std::string after = kernel_texts({"own_patterns", "bind", "shade"});
+  if (traits.channels > 0) before += kernel_text("lookup");
   if (traits.basis > 0) {
-    before += kernel_texts({"lookup", "lobes"});
+    before += kernel_text("lobes");
     if (traits.has_normals) before += kernel_text("normals");
     if (traits.leaves > 0) before += kernel_text("clusters");
     if (traits.mends_seams) before += kernel_text("seams");
     after += kernel_texts({"shade_map", "shade_spread", traits.has_normals ? "shade_normals" : "shade_turning"});
+  } else if (traits.channels > 0) {
+    after += library_include_text("include/widened.glsl") + std::string(kernel_text("shade_parameters"));
   }
   after += kernel_text("shade_main");
   all.text = head(traits.surface) + ours + shader_text_head(info) + definitions(info, traits) + before +

@@ -16,6 +16,8 @@ struct ObjectTraits {
   SurfaceKind surface = SurfaceKind::kMesh;
   bool shadows = false;       ///< whether any light casts some
   int basis = 0;              ///< 0: no map
+  int channels = 0;           ///< of what is looked up: the basis, or averaged parameters; 0: the shader itself
+  int first_slope = 0;        ///< channel of the slopes of normals; 0: none
   bool has_coverage = false;  ///< the map's texels have a coverage that is not 1 everywhere
   bool wraps_u = false;
   bool has_normals = false;    ///< the map holds normals

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "map/slope_moments.h"
 #include "render/filtered_shading.h"
 #include "shader/material_channels.h"
@@ -95,13 +94,6 @@ class ParametersShading : public FilteredShading {
 std::unique_ptr<ObjectShading> make_parameters_shading(std::shared_ptr<const Shader> shader,
                                                        std::shared_ptr<const Pyramid<float>> parameters,
                                                        std::shared_ptr<const Pyramid<float>> slopes) {
-  if (!shader->info().has_material)
-    throw Error("shader '{}' does not declare material(): --method parameters needs it", shader->info().name);
-  if (shader->info().emits)
-    throw Error("shader '{}' emits light: --method parameters has no parameter for it", shader->info().name);
-  if (shader->info().perturbs_normals && !slopes)
-    throw Error("shader '{}' perturbs normals: --method parameters needs their slopes, found none",
-                shader->info().name);
   return std::make_unique<ParametersShading>(std::move(shader), std::move(parameters), std::move(slopes));
 }
 

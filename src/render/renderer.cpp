@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "render/tile.h"
-#include "scene/map_shader.h"
+#include "scene/object_data.h"
 
 namespace redmap {
 
@@ -32,12 +32,9 @@ bool uses_map(Method method) { return method == Method::kMap || method == Method
 
 /// Throws Error if something that the method needs is missing.
 void require_data(const Object& object, Method method, const ObjectData& data) {
-  if (uses_map(method) && !data.map)
-    throw Error("object '{}' has no reduction map at {}", object.name, object.map_path.string());
-  if (uses_map(method)) require_map_of(object, *data.map);
+  if (uses_map(method)) require_map(object, data);
   if (method == Method::kPaper && !data.normals) throw Error("object '{}' has no mean normals", object.name);
-  if (method == Method::kParameters && object.shader->info().has_material && !data.parameters)
-    throw Error("object '{}' has no averaged parameters", object.name);
+  if (method == Method::kParameters) require_parameters(object, data);
 }
 
 /// What 0 samples stand for, and what is too many.
@@ -77,11 +74,11 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options, const std::
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     require_data(object, options_.method, data[i]);
-    const bool stands_in = static_cast<bool>(data[i].stand_in);
+    const bool stands_in = static_cast<bool>(options_.stand_in);
     const bool supersampled = !stands_in && is_supersampled(object, options_.method, data[i]);
     supersampled_.push_back(supersampled);
     originals_.push_back(make_shader_shading(object.shader));
-    shading_.push_back(stands_in      ? data[i].stand_in(object)
+    shading_.push_back(stands_in      ? options_.stand_in(object)
                        : supersampled ? make_shader_shading(object.shader)
                                       : make_shading(object, options_.method, data[i]));
     transmits_ |= object.shader->info().transmits;

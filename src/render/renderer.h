@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/image.h"
-#include "map/reduction_map.h"
+#include "map/object_data.h"
 #include "render/shading.h"
 #include "render/tracer.h"
 #include "scene/method.h"
@@ -25,6 +25,8 @@ struct RenderOptions {
   bool classify = false;                 ///< supersample only: tell pixels apart by what their samples saw
   std::function<void(double)> progress;  ///< called now and then, from any thread, with the part done
   std::function<bool()> cancelled;       ///< polled between tiles
+  /// Shades objects instead of what the method would; empty: nothing does.
+  std::function<std::unique_ptr<ObjectShading>(const Object&)> stand_in;
 };
 
 /// What the samples of a pixel saw.
@@ -41,16 +43,6 @@ struct RenderedFrame {
   double seconds = 0;
   std::vector<PixelClass> classes;  ///< row-major, if asked for
   std::vector<Decision> decisions;  ///< likewise
-};
-
-/// What an object is shaded from, as far as the method needs it.
-struct ObjectData {
-  std::shared_ptr<const ReductionMap> map;            ///< kMap and kPaper
-  std::shared_ptr<const Pyramid<float>> parameters;   ///< kParameters
-  std::shared_ptr<const Pyramid<float>> normals;      ///< kPaper
-  std::shared_ptr<const Pyramid<float>> slopes = {};  ///< kParameters, of shaders that perturb normals
-  /// Shades the object instead of what the method would; empty: nothing does.
-  std::function<std::unique_ptr<ObjectShading>(const Object&)> stand_in = {};
 };
 
 /// Whether the object's map cannot stand in for its shader, which `method` therefore samples. Method paper brings its

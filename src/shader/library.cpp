@@ -60,6 +60,8 @@ std::optional<std::string> library_include(std::string_view name) {
   return found == includes.end() ? std::nullopt : std::optional(std::string(found->text));
 }
 
+std::string library_include_text(std::string_view name) { return resolve_includes(read_include(name), read_include); }
+
 std::vector<std::string> library_include_names() {
   std::vector<std::string> names;
   for (const library::LibraryInclude& include : library::includes()) names.emplace_back(include.name);

@@ -51,7 +51,9 @@ void require_own_world(std::string_view text, std::span<const std::string> sourc
 
 /// A file that texts can include, such as "include/noise.glsl"; nothing if the library has none of that name.
 std::optional<std::string> library_include(std::string_view name);
-/// All of them.
+/// The same with what it includes itself. Throws Error if there is none of that name.
+std::string library_include_text(std::string_view name);
+/// The names of all.
 std::vector<std::string> library_include_names();
 
 /// The complete text of a library shader, includes resolved, ready for a GLSL compiler behind a version line and

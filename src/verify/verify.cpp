@@ -6,6 +6,7 @@
 
 #include "bake/baselines.h"
 #include "base/error.h"
+#include "scene/object_data.h"
 #include "verify/conformal.h"
 
 namespace redmap {
@@ -185,6 +186,7 @@ std::vector<ErrorRow> verify_averaged_material(const Object& object, const Reduc
   std::shared_ptr<const Pyramid<float>> slopes;
   if (object.shader->info().perturbs_normals)
     slopes = std::make_shared<const Pyramid<float>>(build_slope_pyramid(*object.surface, *object.shader, map.size));
+  require_parameters(object, {nullptr, parameters, nullptr, slopes});
   const auto measured = measure_pixels(renderer, pixels, make_parameters_shading(object.shader, parameters, slopes),
                                        nullptr, measure_options(options, false));
   return rows_by_minification(measured, options);

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "bake/bake.h"
+#include "bake/baselines.h"
 #include "base/error.h"
 #include "base/temporary_folder.h"
 #include "metrics/compare.h"
@@ -20,7 +21,7 @@ namespace {
 
 [[maybe_unused]] const int kLayerAskedFor = setenv("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation", 0);
 
-using Maps = std::vector<std::shared_ptr<const ReductionMap>>;
+using Maps = std::vector<ObjectData>;
 
 Object make_ball(const std::shared_ptr<const Shader>& shader, Vec3 translate = {}) {
   Object ball;
@@ -66,10 +67,12 @@ DeviceRenderOptions by(Method method, int spp = 0) {
   return options;
 }
 
-std::shared_ptr<const ReductionMap> baked(const Object& object, int size) {
+ObjectData baked(const Object& object, int size) {
   BakeOptions options;
   options.size = size;
-  return std::make_shared<const ReductionMap>(bake(*object.surface, *object.shader, options));
+  ObjectData data;
+  data.map = std::make_shared<const ReductionMap>(bake(*object.surface, *object.shader, options));
+  return data;
 }
 
 /// What `make` complains of.
@@ -129,9 +132,7 @@ TEST(DeviceRenderer, SeveralObjects_ShadowEachOtherAsOnTheCpu) {
   for (const Light& light : {sun({0.7f, 0.6f, 1}, true), lamp({3, 3, 4}, 50), lamp({1.6f, 1.3f, 2.4f}, 3)}) {
     scene.lights = {light, lamp({-4, 1, 5}, 20)};
     RenderOptions options;
-    std::vector<ObjectData> data(2);
-    data[0].map = maps[0], data[1].map = maps[1];
-    const Image expected = Renderer(scene, options, data).render(scene, 1).image;
+    const Image expected = Renderer(scene, options, maps).render(scene, 1).image;
     const Comparison difference = compare_images(on_device(scene, by(Method::kMap), maps), expected);
     // What differs are the edges of shadows and balls.
     EXPECT_LT(difference.mean_error, 2e-3);
@@ -194,7 +195,7 @@ TEST(DeviceRenderer, WhatItDoesNotTake_IsOneLine) {
   };
   EXPECT_NE(refused(by(Method::kPaper), {}).find("method paper: expected"), std::string::npos);
   EXPECT_NE(refused(by(Method::kSupersample, 7), {}).find("7 samples"), std::string::npos);
-  EXPECT_NE(refused(by(Method::kMap), {nullptr}).find("no reduction map"), std::string::npos);
+  EXPECT_NE(refused(by(Method::kMap), {ObjectData{}}).find("no reduction map"), std::string::npos);
   const Maps other = {baked(make_ball(make_library_shader("checker")), 8)};
   EXPECT_NE(refused(by(Method::kMap), other).find("from shader 'checker', not 'white'"), std::string::npos);
   scene.lights.assign(65, sun({0, 0, 1}, false));
@@ -214,13 +215,36 @@ TEST(DeviceRenderer, BlackBoxThatHidesItsNormals_LooksAsOnTheCpu) {
                          "  return (vec3(0.2, 0.1, 0.05) + 0.4 * shine) * max(dot(n, to_light), 0.0);\n}\n";
   Scene scene = ball_scene(make_user_shader(file, "bumps.glsl"));
   scene.lights = {lamp({3, 3, 5}, 60)};
-  ObjectData data;
-  data.map = baked(scene.objects[0], 64);
+  const ObjectData data = baked(scene.objects[0], 64);
   ASSERT_TRUE(data.map->hides_frames);
   RenderOptions options;
   options.method = Method::kMap;
   const Image expected = Renderer(scene, options, {data}).render(scene, 1).image;
-  EXPECT_LT(compare_images(on_device(scene, by(Method::kMap), {data.map}), expected).mean_error, 1e-3);
+  EXPECT_LT(compare_images(on_device(scene, by(Method::kMap), {data}), expected).mean_error, 1e-3);
+}
+
+/// Averaged parameters of a ball's shader, and slopes where it perturbs normals.
+ObjectData averaged(const Object& ball, int size) {
+  ObjectData data;
+  data.parameters = std::make_shared<const Pyramid<float>>(build_parameter_pyramid(*ball.surface, *ball.shader, size));
+  if (ball.shader->info().perturbs_normals)
+    data.slopes = std::make_shared<const Pyramid<float>>(build_slope_pyramid(*ball.surface, *ball.shader, size));
+  return data;
+}
+
+TEST(DeviceRenderer, AveragedParameters_LookAsOnTheCpu) {
+  for (const char* name : {"checker", "stone", "brick", "scales"}) {
+    Scene scene = ball_scene(make_library_shader(name), 96);
+    scene.lights = {lamp({3, 3, 5}, 60), lamp({-4, 1, 5}, 20)};
+    const ObjectData data = averaged(scene.objects[0], 512);
+    RenderOptions options;
+    options.method = Method::kParameters;
+    const Image expected = Renderer(scene, options, {data}).render(scene, 1).image;
+    const Comparison difference = compare_images(on_device(scene, by(Method::kParameters), {data}), expected);
+    EXPECT_LT(difference.mean_error, 1e-3) << name;
+    const Image other = on_device(scene, by(Method::kOriginal), {});
+    EXPECT_GT(compare_images(other, expected).mean_error, 3 * difference.mean_error) << name;
+  }
 }
 
 TEST(DeviceRenderer, ShaderThatDoesNotEnd_IsNamed) {

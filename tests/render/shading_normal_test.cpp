@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "render/shading.h"
 #include "render_test_support.h"
+#include "scene/object_data.h"
 #include "scene/placement.h"
 #include "surface/atlas.h"
 #include "surface/mesh.h"
@@ -107,21 +108,23 @@ TEST(ShaderShading, BumpsGoWithThePose_AsIfTheObjectHadTurned) {
   EXPECT_LT(std::sqrt(difference / power), 0.02);
 }
 
-TEST(ParametersShading, RefusesShadersThatPerturbNormals_WithoutTheirSlopes) {
-  try {
-    make_parameters_shading(std::make_shared<LeaningLambert>(Vec3{0, 0, 1}), nullptr, nullptr);
-    FAIL() << "expected an error";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("slopes"), std::string::npos) << error.what();
-  }
-}
-
 /// A pyramid of one value everywhere, for the sphere.
 std::shared_ptr<const Pyramid<float>> constant_pyramid(const Surface& surface, std::vector<float> value) {
   BaseLevel base(surface.map_extent(256), static_cast<int>(value.size()), true);
   for (std::size_t i = 0; i < base.values.size(); ++i) base.values[i] = value[i % value.size()];
   std::fill(base.coverage.begin(), base.coverage.end(), 1.0f);
   return std::make_shared<const Pyramid<float>>(base);
+}
+
+TEST(ParametersShading, RefusesShadersThatPerturbNormals_WithoutTheirSlopes) {
+  try {
+    Object object;
+    object.shader = std::make_shared<LeaningLambert>(Vec3{0, 0, 1});
+    require_parameters(object, {nullptr, constant_pyramid(*make_sphere(1), {1}), nullptr});
+    FAIL() << "expected an error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("slopes"), std::string::npos) << error.what();
+  }
 }
 
 TEST(ParametersShading, OfOneSlopeEverywhere_IsTheShaderAboutThatNormal) {

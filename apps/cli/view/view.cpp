@@ -66,7 +66,7 @@ class Viewer {
         device_(Device::open(options.device)),
         editor_(scene_),
         window_(scene_.camera.width, scene_.camera.height, "redmap") {
-    for (const ObjectData& data : load_object_data(scene_, Method::kMap)) maps_.push_back(data.map);
+    data_ = load_object_data(scene_, Method::kMap);
   }
 
   void run() {
@@ -107,7 +107,7 @@ class Viewer {
     std::vector<std::string> overrides = options_.overrides;
     for (std::string& each : editor_.overrides()) overrides.push_back(std::move(each));
     if (!editor_.empty())
-      rebake_.start(options_.scene, overrides, options_.device, editor_.object(), maps_[editor_.object()]->size);
+      rebake_.start(options_.scene, overrides, options_.device, editor_.object(), data_[editor_.object()].map->size);
   }
 
   /// Another shader on one object; everything else stays, the camera too.
@@ -116,7 +116,7 @@ class Viewer {
     file_ = std::move(changed.file);
     scene_ = file_.at(1);
     scene_.camera = camera;
-    maps_[changed.object] = changed.map;
+    data_[changed.object].map = changed.map;
     renderers_.clear();
   }
 
@@ -127,7 +127,7 @@ class Viewer {
     options.method = method, options.spp = spp;
     options.quality = fast_ ? Quality::kFast : Quality::kDefault;
     options.draws_one_basis = draws_one_basis_;
-    made = std::make_unique<DeviceRenderer>(device_, scene_, options, maps_);
+    made = std::make_unique<DeviceRenderer>(device_, scene_, options, data_);
     return *made;
   }
   Image picture(Method method, int frame, int spp = 0) {
@@ -176,7 +176,7 @@ class Viewer {
   ParameterEditor editor_;
   Window window_;
   Rebake rebake_;
-  std::vector<std::shared_ptr<const ReductionMap>> maps_;
+  std::vector<ObjectData> data_;
   std::map<std::pair<Method, int>, std::unique_ptr<DeviceRenderer>> renderers_;
   Show show_ = Show::kMap;
   bool fast_ = false, draws_one_basis_ = false;

@@ -1,6 +1,7 @@
-// The weights under a footprint: the plan of map/lookup_plan.cpp, its taps by the device's own filter. Where the map
-// does not cover all of its texels, weights come multiplied by their coverage, which is the channel after them.
-const int redmap_layers = (REDMAP_BASIS + REDMAP_HAS_COVERAGE + 3) / 4;
+// The weights, or other channels, under a footprint: the plan of map/lookup_plan.cpp, its taps by the device's own
+// filter. Where the map does not cover all of its texels, they come multiplied by their coverage, which is the channel
+// after them.
+const int redmap_layers = (REDMAP_CHANNELS + REDMAP_HAS_COVERAGE + 3) / 4;
 // Less than half a byte of one texel.
 const float redmap_least_coverage = 0.0019;
 
@@ -43,14 +44,14 @@ RedmapTexel redmap_taps(RedmapPlan plan) {
 
 float redmap_coverage(RedmapTexel texel) {
 #if REDMAP_HAS_COVERAGE
-  return texel.channels[REDMAP_BASIS / 4][REDMAP_BASIS % 4];
+  return texel.channels[REDMAP_CHANNELS / 4][REDMAP_CHANNELS % 4];
 #else
   return 1.0;
 #endif
 }
 
 // What was looked up about `uv` on `level`, no longer multiplied by coverage.
-float[REDMAP_BASIS] redmap_weights_of(vec2 uv, float level, RedmapTexel sum) {
+float[REDMAP_CHANNELS] redmap_weights_of(vec2 uv, float level, RedmapTexel sum) {
 #if REDMAP_HAS_COVERAGE
   // Between charts: whatever is nearest, on coarser levels.
   while (redmap_coverage(sum) < redmap_least_coverage && level < redmap_map.z) {
@@ -58,14 +59,14 @@ float[REDMAP_BASIS] redmap_weights_of(vec2 uv, float level, RedmapTexel sum) {
     sum = redmap_tap(uv, level);
   }
 #endif
-  float weights[REDMAP_BASIS];
+  float weights[REDMAP_CHANNELS];
   float scale = 1.0 / max(redmap_coverage(sum), 1e-6);
-  for (int b = 0; b < REDMAP_BASIS; b++)
+  for (int b = 0; b < REDMAP_CHANNELS; b++)
     weights[b] = sum.channels[b / 4][b % 4] * redmap_scales[b / 4][b % 4] * scale;
   return weights;
 }
 
-float[REDMAP_BASIS] redmap_look_up(vec2 uv, RedmapAxes axes) {
+float[REDMAP_CHANNELS] redmap_look_up(vec2 uv, RedmapAxes axes) {
   RedmapPlan plan = redmap_plan(uv, axes);
   return redmap_weights_of(uv, plan.level, redmap_taps(plan));
 }

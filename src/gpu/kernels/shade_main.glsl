@@ -19,12 +19,12 @@ void main() {
   vec3 redmap_value = vec3(0.0);
   if (redmap_stage == redmap_near_stage) {
     redmap_value = redmap_original(redmap_hit_);
-#if REDMAP_BASIS > 0
+#if REDMAP_CHANNELS > 0
     if (redmap_filters != 0u)
       redmap_value *= 1.0 - redmap_part(redmap_axes(redmap_hit_.duv_dx, redmap_hit_.duv_dy));
 #endif
   }
-#if REDMAP_BASIS > 0
+#if REDMAP_CHANNELS > 0
   if (redmap_stage != redmap_near_stage) {
     RedmapAxes redmap_a = redmap_axes(redmap_hit_.duv_dx, redmap_hit_.duv_dy);
     redmap_value = redmap_filtered(redmap_hit_, redmap_a, redmap_sample);
