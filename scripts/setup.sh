@@ -5,8 +5,8 @@ set -euo pipefail
 packages=(cmake ninja-build pkg-config g++ ccache mold libembree-dev libopenexr-dev libopenimageio-dev libtbb-dev
   libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libtinygltf-dev libdraco-dev libstb-dev
   libgtest-dev libbenchmark-dev libmeshoptimizer-dev mesa-vulkan-drivers libvulkan-dev vulkan-validationlayers
-  libglfw3-dev libgl-dev xvfb glslang-dev glslang-tools spirv-tools clang-format clang-tidy clang-16
-  libclang-rt-16-dev valgrind git python3 python3-dev python3-venv python3-venv libceres-dev
+  libglfw3-dev libimgui-dev libgl-dev xvfb glslang-dev glslang-tools spirv-tools clang-format clang-tidy clang-16
+  libclang-rt-16-dev valgrind git python3 python3-dev python3-venv libceres-dev
   openimageio-tools chromium libegl-dev)
 command -v npm >/dev/null || packages+=(nodejs npm)
 

@@ -12,6 +12,10 @@ namespace redmap::cli {
 /// Throws Error naming the command to run where a map is missing.
 std::vector<ObjectData> load_object_data(const Scene& scene, Method method);
 
+/// Builds what `method` needs besides the map: averaged parameters, or the paper's mean normals, for a map of `size`.
+/// Throws Error where the object has none.
+void add_baseline(const Object& object, Method method, int size, ObjectData& data);
+
 /// The method of that name, as on the command line.
 Method method_of(const std::string& name);
 /// All their names, for help and checks.

@@ -32,7 +32,7 @@ runs render scene.toml -o original.png --device 0 --method original
 
 # Everything below has a display.
 shows() { # keys, frames, picture
-  xvfb-run -a -s "-screen 0 640x480x24" "$program" view scene.toml --device 0 --keys "$1" --frames "$2" \
+  xvfb-run -a -s "-screen 0 640x480x24" "$program" view scene.toml --device 0 --keys "p$1" --frames "$2" \
     --screenshot "$3" >stdout 2>stderr || fail "view --keys $1: expected success, found: $(cat stderr)"
 }
 rmse() {
@@ -44,9 +44,17 @@ shows 2 2 shown.png
 below "$(rmse shown.png map.png)" 0.004 || fail "expected the window to show the map's picture"
 shows 1 2 shown.png
 below "$(rmse shown.png original.png)" 0.004 || fail "expected the window to show the shader itself"
-shows 4 2 split.png
+shows 6 2 split.png
 below "$(rmse split.png original.png)" 0.2 || fail "expected half of each picture"
 below "$(rmse split.png shown.png)" 0.004 && fail "expected the other half from the map, and a line"
+runs render scene.toml -o parameters.png --device 0 --method parameters
+shows 4 2 shown.png
+below "$(rmse shown.png parameters.png)" 0.004 || fail "expected the window to show averaged parameters"
+runs render scene.toml -o paper.png --method paper
+shows 5 2 shown.png
+below "$(rmse shown.png paper.png)" 0.004 || fail "expected the window to show the paper's method"
+shows p2 2 panel.png
+below "$(rmse panel.png map.png)" 0.02 && fail "expected a panel over the picture"
 # The first parameter is the scale: cubes of another size, once they are baked.
 shows "2====" 60 changed.png
 below "$(rmse changed.png map.png)" 0.03 && fail "expected another pattern after another bake"

@@ -46,9 +46,26 @@ void ParameterEditor::select(int step) {
 
 void ParameterEditor::change(int step) {
   if (empty()) return;
-  Entry& entry = entries_[selected_];
-  for (float& component : entry.value) component = stepped(entry.info, component, step);
-  entry.changed = true;
+  std::vector<float> value = entries_[selected_].value;
+  for (float& component : value) component = stepped(entries_[selected_].info, component, step);
+  set(selected_, std::move(value));
+}
+
+void ParameterEditor::set(std::size_t entry, std::vector<float> value) {
+  Entry& to = entries_[entry];
+  for (float& component : value) component = std::clamp(component, to.info.minimum, to.info.maximum);
+  to.value = std::move(value), to.changed = true, to.is_baked = false;
+}
+
+std::vector<std::size_t> ParameterEditor::unbaked_objects() const {
+  std::vector<std::size_t> objects;
+  for (const Entry& entry : entries_)
+    if (!entry.is_baked && (objects.empty() || objects.back() != entry.object)) objects.push_back(entry.object);
+  return objects;
+}
+
+void ParameterEditor::settle() {
+  for (Entry& entry : entries_) entry.is_baked = true;
 }
 
 std::string ParameterEditor::text() const {

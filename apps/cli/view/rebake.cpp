@@ -11,20 +11,23 @@ void Rebake::stop() {
 }
 
 void Rebake::start(const std::string& scene, const std::vector<std::string>& overrides, const std::string& device,
-                   std::size_t object, int size) {
+                   const std::vector<Wanted>& objects) {
   stop();
   cancelled_ = false, done_ = false;
   result_.reset(), error_.clear();
-  thread_ = std::thread([this, scene, overrides, device, object, size] {
+  thread_ = std::thread([this, scene, overrides, device, objects] {
     try {
-      SceneFile file = SceneFile::load(scene, overrides, device);
-      const Scene changed = file.at(1);
-      const Object& baked = changed.objects.at(object);
+      RebakedScene result{SceneFile::load(scene, overrides, device), {}};
+      const Scene changed = result.file.at(1);
       BakeOptions options;
-      options.size = size;
       options.progress = [this](float, std::string_view) { return !cancelled_; };
-      auto map = std::make_shared<const ReductionMap>(bake(*baked.surface, *baked.shader, options));
-      result_.emplace(RebakedScene{std::move(file), object, std::move(map)});
+      for (const Wanted& wanted : objects) {
+        const Object& object = changed.objects.at(wanted.object);
+        options.size = wanted.size;
+        auto map = std::make_shared<const ReductionMap>(bake(*object.surface, *object.shader, options));
+        result.maps.push_back({wanted.object, std::move(map)});
+      }
+      result_ = std::move(result);
     } catch (const BakeInterrupted&) {
     } catch (const std::exception& error) {
       error_ = error.what();

@@ -15,17 +15,25 @@ namespace redmap::cli {
 
 struct RebakedScene {
   SceneFile file;
-  std::size_t object = 0;
-  std::shared_ptr<const ReductionMap> map;  ///< of that object
+  struct Map {
+    std::size_t object = 0;
+    std::shared_ptr<const ReductionMap> map;
+  };
+  std::vector<Map> maps;  ///< of the objects asked for
 };
 
 /// One at a time: what is asked for last counts.
 class Rebake {
  public:
   ~Rebake() { stop(); }
-  /// Loads the scene with `overrides` and bakes object `object`, as large as `size`.
+  /// An object, and the size of its map.
+  struct Wanted {
+    std::size_t object;
+    int size;
+  };
+  /// Loads the scene with `overrides` and bakes objects.
   void start(const std::string& scene, const std::vector<std::string>& overrides, const std::string& device,
-             std::size_t object, int size);
+             const std::vector<Wanted>& objects);
   bool is_running() const { return thread_.joinable() && !done_; }
   /// What was asked for, once it is there. Throws Error where it failed.
   std::optional<RebakedScene> take();

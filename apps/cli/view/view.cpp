@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -15,8 +17,10 @@
 #include "gpu/device_renderer.h"
 #include "metrics/compare.h"
 #include "object_data.h"
+#include "render/renderer.h"
 #include "scene/camera_controls.h"
 #include "scene/scene_file.h"
+#include "view/panel.h"
 #include "view/parameter_editor.h"
 #include "view/rebake.h"
 #include "view/window.h"
@@ -35,16 +39,13 @@ struct ViewOptions {
 };
 
 constexpr const char* kKeys =
-    "1 original, 2 map, 3 supersampled, 4 split: map left, original right. f: one sample a pixel or 2 x 2. b: one "
-    "basis "
-    "reflectance a sample. r: error against 64 samples. Drag left: orbit, right: look around; wheel: zoom; w a s d q "
-    "e: "
-    "fly. , and . choose a parameter, - and = change it; the map is baked again while you look. Escape: leave.";
+    "1 original, 2 map, 3 supersampled, 4 averaged parameters, 5 the paper's method (on the CPU, slow), 6 split: map "
+    "left, original right. f: one sample a pixel or 2 x 2. b: one basis reflectance a light. r: error against 64 "
+    "samples. p: the panel with a slider a parameter; , and . choose one too, - and = change it; maps are baked again "
+    "while you look. Drag left: orbit, right: look around; wheel: zoom; w a s d q e: fly. Escape: leave.";
 
 /// Degrees a dragged pixel, zoom a step of the wheel, parts of the distance a second.
 constexpr float kDragDegrees = 0.3f, kWheelZoom = 0.9f, kFlySpeed = 0.5f;
-
-enum class Show { kOriginal, kMap, kSupersampled, kSplit };
 
 /// Left half of one, right half of the other, with a line between.
 Image split(const Image& left, const Image& right) {
@@ -65,9 +66,9 @@ class Viewer {
         scene_(file_.at(1)),
         device_(Device::open(options.device)),
         editor_(scene_),
-        window_(scene_.camera.width, scene_.camera.height, "redmap") {
-    data_ = load_object_data(scene_, Method::kMap);
-  }
+        window_(scene_.camera.width, scene_.camera.height, "redmap"),
+        panel_(window_),
+        data_(load_object_data(scene_, Method::kMap)) {}
 
   void run() {
     WindowInput input;
@@ -75,11 +76,14 @@ class Viewer {
       stop_if_interrupted();
       if (frame == 1) input.keys = options_.keys + input.keys;
       apply(input);
-      if (std::optional<RebakedScene> changed = rebake_.take()) adopt(std::move(*changed));
+      take_rebaked();
       scene_.camera.width = window_.width(), scene_.camera.height = window_.height();
       const auto start = Clock::now();
-      window_.show(rendered(frame));
-      seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
+      const Image picture = rendered(frame);
+      if (std::exchange(state_.wants_error, false)) measure_error(picture);
+      panel_.lay_out(state_, editor_);
+      window_.show(picture, [this] { panel_.draw(); });
+      state_.frame_seconds = std::chrono::duration<double>(Clock::now() - start).count();
       window_.set_title(title());
       if (frame == options_.frames) break;
     }
@@ -88,60 +92,101 @@ class Viewer {
 
  private:
   void apply(const WindowInput& input) {
-    const float ahead = kFlySpeed * static_cast<float>(std::min(seconds_, 0.5));
-    orbit(scene_.camera, -kDragDegrees * input.orbit_x, kDragDegrees * input.orbit_y);
-    look(scene_.camera, kDragDegrees * input.look_x, -kDragDegrees * input.look_y);
-    zoom(scene_.camera, std::pow(kWheelZoom, input.scrolled));
-    fly(scene_.camera, ahead * input.right, ahead * input.up, ahead * input.forward);
-    for (const char key : input.keys) press(key);
+    const float ahead = kFlySpeed * static_cast<float>(std::min(state_.frame_seconds, 0.5));
+    if (!panel_.wants_mouse()) {
+      orbit(scene_.camera, -kDragDegrees * input.orbit_x, kDragDegrees * input.orbit_y);
+      look(scene_.camera, kDragDegrees * input.look_x, -kDragDegrees * input.look_y);
+      zoom(scene_.camera, std::pow(kWheelZoom, input.scrolled));
+    }
+    if (!panel_.wants_keys()) {
+      fly(scene_.camera, ahead * input.right, ahead * input.up, ahead * input.forward);
+      for (const char key : input.keys) press(key);
+    }
+    start_baking();
   }
 
   void press(char key) {
-    if (key >= '1' && key <= '4') show_ = static_cast<Show>(key - '1');
-    if (key == 'f') fast_ = !fast_, renderers_.clear();
-    if (key == 'b') draws_one_basis_ = !draws_one_basis_, renderers_.clear();
-    if (key == 'r') measure_error();
+    if (key >= '1' && key <= '6') state_.show = static_cast<Show>(key - '1'), state_.message.clear();
+    if (key == 'f') state_.fast = !state_.fast;
+    if (key == 'b') state_.draws_one_basis = !state_.draws_one_basis;
+    if (key == 'p') state_.shows_panel = !state_.shows_panel;
+    if (key == 'r') state_.wants_error = true;
     if (key == ',' || key == '.') editor_.select(key == '.' ? 1 : -1);
-    if (key != '-' && key != '=') return;
-    editor_.change(key == '=' ? 1 : -1);
-    std::vector<std::string> overrides = options_.overrides;
-    for (std::string& each : editor_.overrides()) overrides.push_back(std::move(each));
-    if (!editor_.empty())
-      rebake_.start(options_.scene, overrides, options_.device, editor_.object(), data_[editor_.object()].map->size);
+    if (key == '-' || key == '=') editor_.change(key == '=' ? 1 : -1);
   }
 
-  /// Another shader on one object; everything else stays, the camera too.
-  void adopt(RebakedScene changed) {
-    const Camera camera = scene_.camera;
-    file_ = std::move(changed.file);
-    scene_ = file_.at(1);
-    scene_.camera = camera;
-    data_[changed.object].map = changed.map;
-    renderers_.clear();
+  /// Of all objects that wait for it, whenever one more parameter was changed.
+  void start_baking() {
+    std::vector<std::string> overrides = options_.overrides;
+    for (std::string& each : editor_.overrides()) overrides.push_back(std::move(each));
+    if (editor_.unbaked_objects().empty() || overrides == asked_for_) return;
+    std::vector<Rebake::Wanted> wanted;
+    for (const std::size_t object : editor_.unbaked_objects()) wanted.push_back({object, data_[object].map->size});
+    rebake_.start(options_.scene, overrides, options_.device, wanted);
+    asked_for_ = std::move(overrides);
+  }
+
+  /// Other shaders on some objects; everything else stays, the camera too.
+  void take_rebaked() {
+    try {
+      if (std::optional<RebakedScene> changed = rebake_.take()) {
+        const Camera camera = scene_.camera;
+        file_ = std::move(changed->file);
+        scene_ = file_.at(1);
+        scene_.camera = camera;
+        for (const RebakedScene::Map& each : changed->maps) data_[each.object] = {each.map, nullptr, nullptr};
+        renderers_.clear(), paper_.reset();
+        editor_.settle();
+        state_.message.clear();
+      }
+    } catch (const Error& error) {
+      state_.message = error.what();
+    }
+    state_.is_baking = rebake_.is_running();
+  }
+
+  /// With what `method` needs besides the maps.
+  std::vector<ObjectData> data_for(Method method) {
+    for (std::size_t i = 0; i < data_.size(); ++i)
+      if (method == Method::kPaper ? !data_[i].normals : !data_[i].parameters)
+        add_baseline(scene_.objects[i], method, data_[i].map->size, data_[i]);
+    return data_;
   }
 
   DeviceRenderer& renderer(Method method, int spp) {
-    std::unique_ptr<DeviceRenderer>& made = renderers_[{method, spp}];
+    std::unique_ptr<DeviceRenderer>& made = renderers_[std::tuple(method, spp, state_.fast, state_.draws_one_basis)];
     if (made) return *made;
     DeviceRenderOptions options;
     options.method = method, options.spp = spp;
-    options.quality = fast_ ? Quality::kFast : Quality::kDefault;
-    options.draws_one_basis = draws_one_basis_;
-    made = std::make_unique<DeviceRenderer>(device_, scene_, options, data_);
+    options.quality = state_.fast ? Quality::kFast : Quality::kDefault;
+    options.draws_one_basis = state_.draws_one_basis;
+    made = std::make_unique<DeviceRenderer>(device_, scene_, options, data_for(method));
     return *made;
   }
   Image picture(Method method, int frame, int spp = 0) {
     DeviceRenderer& by = renderer(method, spp);
-    render_seconds_ += by.render(scene_, frame);
+    state_.render_seconds += by.render(scene_, frame);
     return by.picture();
   }
-  Image rendered(int frame) {
-    render_seconds_ = 0;
-    switch (show_) {
+  /// Devices do not know it.
+  Image paper_picture(int frame) {
+    RenderOptions options;
+    options.method = Method::kPaper;
+    if (!paper_) paper_ = std::make_unique<Renderer>(scene_, options, data_for(Method::kPaper));
+    RenderedFrame rendered = paper_->render(scene_, frame);
+    state_.render_seconds += rendered.seconds;
+    return std::move(rendered.image);
+  }
+  Image shown(int frame) {
+    switch (state_.show) {
       case Show::kOriginal:
         return picture(Method::kOriginal, frame);
       case Show::kSupersampled:
         return picture(Method::kSupersample, frame);
+      case Show::kParameters:
+        return picture(Method::kParameters, frame);
+      case Show::kPaper:
+        return paper_picture(frame);
       case Show::kSplit: {
         const Image left = picture(Method::kMap, frame);
         return split(left, picture(Method::kOriginal, frame));
@@ -151,22 +196,31 @@ class Viewer {
     }
     return picture(Method::kMap, frame);
   }
+  /// What cannot be shown is said, and the map shown instead.
+  Image rendered(int frame) {
+    state_.render_seconds = 0;
+    try {
+      return shown(frame);
+    } catch (const Error& error) {
+      if (state_.show == Show::kMap) throw;
+      state_.message = error.what(), state_.show = Show::kMap;
+    }
+    return shown(frame);
+  }
 
-  void measure_error() {
+  void measure_error(const Image& seen) {
     constexpr int kReferenceSpp = 64;
     CompareOptions compare;
     compare.flip = false;
-    const Image seen = rendered(0);
-    error_ = fmt::format(", RMSE {:.4f}",
-                         compare_images(seen, picture(Method::kSupersample, 0, kReferenceSpp), compare).rmse);
+    const double seconds = state_.render_seconds;
+    state_.error = compare_images(seen, picture(Method::kSupersample, 0, kReferenceSpp), compare).rmse;
+    state_.render_seconds = seconds;
   }
 
   std::string title() const {
-    constexpr const char* kNames[] = {"original", "map", "supersampled", "map | original"};
-    return fmt::format("redmap: {}, {}{}: {:.1f} ms a frame, {:.1f} ms with the window{}, {}{}",
-                       kNames[static_cast<int>(show_)], fast_ ? "1 sample" : "2 x 2 samples",
-                       draws_one_basis_ ? ", one basis" : "", 1e3 * render_seconds_, 1e3 * seconds_, error_,
-                       editor_.text(), rebake_.is_running() ? " (baking)" : "");
+    return fmt::format("redmap: {}, {}{}: {:.1f} ms a frame, {}{}", kShowNames[static_cast<int>(state_.show)],
+                       state_.fast ? "1 sample" : "2 x 2 samples", state_.draws_one_basis ? ", one basis" : "",
+                       1e3 * state_.render_seconds, editor_.text(), state_.is_baking ? " (baking)" : "");
   }
 
   ViewOptions options_;
@@ -175,13 +229,13 @@ class Viewer {
   std::shared_ptr<Device> device_;
   ParameterEditor editor_;
   Window window_;
+  Panel panel_;
   Rebake rebake_;
+  std::vector<std::string> asked_for_;  ///< of the last bake
   std::vector<ObjectData> data_;
-  std::map<std::pair<Method, int>, std::unique_ptr<DeviceRenderer>> renderers_;
-  Show show_ = Show::kMap;
-  bool fast_ = false, draws_one_basis_ = false;
-  double seconds_ = 0, render_seconds_ = 0;
-  std::string error_;
+  std::map<std::tuple<Method, int, bool, bool>, std::unique_ptr<DeviceRenderer>> renderers_;
+  std::unique_ptr<Renderer> paper_;
+  ViewState state_;
 };
 
 }  // namespace
@@ -198,7 +252,7 @@ void add_view_command(CLI::App& app) {
   add_override_option(*sub, options->overrides);
   add_device_option(*sub, options->device);
   add_common_options(*sub, options->common);
-  sub->footer(std::string("Keys: ") + kKeys + "\nExample: redmap view scenes/sphere_noise.toml --keys 4");
+  sub->footer(std::string("Keys: ") + kKeys + "\nExample: redmap view scenes/sphere_noise.toml --keys 6");
   sub->callback([options] {
     const ThreadLimit threads(static_cast<std::size_t>(options->common.threads));
     Viewer(*options).run();

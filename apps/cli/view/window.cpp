@@ -32,6 +32,7 @@ std::uint8_t srgb_byte(float linear) {
 
 struct Window::Impl {
   GLFWwindow* window = nullptr;
+  std::function<void()> overlay;
   WindowInput input;
   double x = 0, y = 0;
   std::vector<std::uint8_t> bytes;  ///< of what is shown, lowest row first
@@ -98,9 +99,11 @@ int Window::height() const {
   return std::max(h, 1);
 }
 
+GLFWwindow* Window::handle() const { return impl_->window; }
+
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(impl_->window, title.c_str()); }
 
-void Window::show(const Image& image) {
+void Window::show(const Image& image, const std::function<void()>& overlay) {
   std::vector<std::uint8_t> bytes(3 * image.pixels());
   const std::size_t row = 3 * static_cast<std::size_t>(image.width);
   for (int y = 0; y < image.height; ++y)  // OpenGL's first row is the lowest
@@ -108,6 +111,7 @@ void Window::show(const Image& image) {
       bytes[static_cast<std::size_t>(image.height - 1 - y) * row + i] =
           srgb_byte(image.data[static_cast<std::size_t>(y) * row + i]);
   impl_->bytes = std::move(bytes), impl_->columns = image.width, impl_->rows = image.height;
+  impl_->overlay = overlay;
   draw();
   glfwSwapBuffers(impl_->window);
 }
@@ -117,6 +121,7 @@ void Window::draw() const {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glRasterPos2f(-1, -1);
   glDrawPixels(impl_->columns, impl_->rows, GL_RGB, GL_UNSIGNED_BYTE, impl_->bytes.data());
+  if (impl_->overlay) impl_->overlay();
 }
 
 Image Window::screenshot() const {

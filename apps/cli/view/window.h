@@ -7,6 +7,8 @@
 
 #include "base/image.h"
 
+struct GLFWwindow;
+
 namespace redmap::cli {
 
 /// What was done since the last frame. Distances are in pixels of the window.
@@ -26,14 +28,15 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
+  GLFWwindow* handle() const;
   /// Waits for nothing. False once the window was closed.
   bool poll(WindowInput& input);
   /// Pixels of the picture that fits now.
   int width() const;
   int height() const;
   void set_title(const std::string& title);
-  /// Linear RGB, as large as fits.
-  void show(const Image& image);
+  /// Linear RGB, as large as fits, with what `overlay` draws over it by OpenGL.
+  void show(const Image& image, const std::function<void()>& overlay = {});
   /// What is shown, as the screen has it, linear RGB.
   Image screenshot() const;
 
