@@ -50,15 +50,17 @@ std::string constants_text(const ExportInput& input, const ObjectTraits& traits)
   ObjectBlock block;
   set_map_block(*input.map, block);
   std::string text = fmt::format(
-      "#define REDMAP_BASIS {}\n#define REDMAP_HAS_COVERAGE {}\n#define REDMAP_WRAPS {}\n#define REDMAP_WIDTHS {}\n"
-      "#define REDMAP_LEAVES {}\n",
+      "#define REDMAP_BASIS {0}\n#define REDMAP_CHANNELS {0}\n#define REDMAP_HAS_COVERAGE {1}\n#define REDMAP_WRAPS "
+      "{2}\n"
+      "#define REDMAP_WIDTHS {3}\n#define REDMAP_LEAVES {4}\n",
       traits.basis, traits.has_coverage ? 1 : 0, traits.wraps_u ? 1 : 0, traits.widths, traits.leaves);
   if (traits.hides_frames) text += "#define REDMAP_HIDES_FRAMES\n";
   if (traits.draws_normals) text += "#define REDMAP_DRAWS_NORMALS\n";
   text += fmt::format("const vec4 redmap_map = {};\n", vec4_text(block.map));
   std::vector<std::string> scales;
   for (const Vec4& scale : block.scales) scales.push_back(vec4_text(scale));
-  return text + fmt::format("const vec4 redmap_scales[4] = vec4[4]({});\n", fmt::join(scales, ", "));
+  return text +
+         fmt::format("const vec4 redmap_scales[{0}] = vec4[{0}]({1});\n", scales.size(), fmt::join(scales, ", "));
 }
 
 /// Without `#line`, whose files nobody else knows.

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
+#include <optional>
+#include <string>
 
 #include "export/export.h"
 #include "export/manifest.h"
@@ -13,9 +14,18 @@ namespace redmap {
 
 namespace {
 
+/// "body" of "body.1001", the name of a tile of a mesh; nothing for names of other kinds.
+std::optional<std::string> udim_stem(const std::string& name) {
+  constexpr std::size_t kSuffix = 5;
+  if (name.size() < kSuffix || name.find_last_not_of("0123456789") != name.size() - kSuffix) return std::nullopt;
+  const std::string suffix = name.substr(name.size() - kSuffix);
+  return suffix.starts_with(".1") ? std::optional(name.substr(0, name.size() - kSuffix)) : std::nullopt;
+}
+
 /// "body.1001" becomes "body.<UDIM>": other tiles of the mesh are exported likewise, and one document reads them all.
 std::string udim_pattern(const std::string& name) {
-  return std::regex_replace(name, std::regex("1[0-9]{3}$"), "<UDIM>");
+  const std::optional<std::string> stem = udim_stem(name);
+  return stem ? *stem + ".<UDIM>" : name;
 }
 
 std::string escaped(const std::string& text) {
@@ -115,7 +125,7 @@ void export_mtlx(const ExportInput& in, ExportFolder& folder) {
   }
   nodes += "  <surfacematerial name=\"material\" type=\"material\">\n" +
            node_input("surfaceshader", "surfaceshader", last) + "  </surfacematerial>\n";
-  const std::string file = std::regex_replace(in.name, std::regex("\\.1[0-9]{3}$"), "") + ".mtlx";
+  const std::string file = udim_stem(in.name).value_or(in.name) + ".mtlx";
   folder.add(file, "<?xml version=\"1.0\"?>\n<materialx version=\"1.38\" colorspace=\"lin_rec709\">\n" + nodes +
                        "</materialx>\n");
   manifest["mtlx"] = file;

@@ -137,7 +137,8 @@ WeightTexels weight_texels(const ReductionMap& map) {
 LayeredTexture make_weight_texture(const Device& device, const ReductionMap& map) {
   const WeightTexels all = weight_texels(map);
   const WeightPyramid& weights = map.weights;
-  return LayeredTexture(device, TexelKind::kBytes, weights.extent(0), all.layers, weights.levels(), weights.wraps_u(), all.texels);
+  return LayeredTexture(device, TexelKind::kBytes, weights.extent(0), all.layers, weights.levels(), weights.wraps_u(),
+                        all.texels);
 }
 
 std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surface, const ObjectTraits& traits) {

@@ -13,7 +13,9 @@ namespace {
 /// Ranges that span more than this get a logarithmic slider.
 constexpr float kWide = 100;
 
-bool is_colour(const ParameterInfo& info) { return info.default_value.size() == 3 && info.minimum == 0 && info.maximum == 1; }
+bool is_colour(const ParameterInfo& info) {
+  return info.default_value.size() == 3 && info.minimum == 0 && info.maximum == 1;
+}
 
 /// Whether `value` was changed.
 bool edit(const ParameterInfo& info, const char* label, std::vector<float>& value) {
