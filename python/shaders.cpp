@@ -146,7 +146,7 @@ void bind_shaders(nb::module_& module) {
           "(N, 3), and uv (N, 2), all in object space, unit directions away from the surface. Raises Error.");
   module.def(
       "shader", &shader, "name"_a, "parameters"_a = Parameters{}, "images"_a = Images{}, "device"_a = "",
-      "The library's shader of that name, or that of a file: GLSL or a plug-in. Parameters that are not "
+      "The library's shader of that name, or that of a file: GLSL, MaterialX or a plug-in. Parameters that are not "
       "given keep their defaults. `images`: the files of its samplers. `device`: where a text runs. Raises Error.");
   module.def(
       "shader", &function_shader, "function"_a, "name"_a = nb::none(),

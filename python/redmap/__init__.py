@@ -5,4 +5,10 @@
     redmap.write_image("out.png", redmap.render(scene, maps))
 """
 
+import os
+import sys
+
 from ._core import *
+
+# Whom the library asks about MaterialX: this Python, unless another was chosen.
+os.environ.setdefault("REDMAP_PYTHON", sys.executable)

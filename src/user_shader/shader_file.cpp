@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/nearest.h"
+#include "user_shader/materialx.h"
 #include "user_shader/plugin_shader.h"
 
 namespace redmap {
@@ -23,12 +24,16 @@ ShaderSource read_include(const std::string& name, const std::string& includer, 
 ShaderSources read_shader_sources(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file))
     throw Error("{}: expected a shader file, found none", file.lexically_normal().string());
-  return resolve_sources({file.lexically_normal().string(), read_file(file)}, read_include);
+  const std::string name = file.lexically_normal().string();
+  if (is_materialx(file)) return resolve_sources({name + ", as GLSL", translate_materialx(file).text}, read_include);
+  return resolve_sources({name, read_file(file)}, read_include);
 }
 
 bool is_plugin(const std::filesystem::path& file) { return file.extension() == ".so"; }
 
-bool is_shader_file(const std::string& shader) { return shader.ends_with(".glsl") || is_plugin(shader); }
+bool is_shader_file(const std::string& shader) {
+  return shader.ends_with(".glsl") || is_plugin(shader) || is_materialx(shader);
+}
 
 ShaderInfo user_shader_info(const std::filesystem::path& file, const std::string& name) {
   if (is_plugin(file)) return plugin_info(file, name);

@@ -9,6 +9,7 @@
 #include "device/glsl_compiler.h"
 #include "shader/parameter_values.h"
 #include "user_shader/device_shader.h"
+#include "user_shader/materialx.h"
 #include "user_shader/plugin_shader.h"
 #include "user_shader/shader_file.h"
 #include "user_shader/user_patterns.h"
@@ -29,17 +30,25 @@ class UserShader final : public Shader {
   std::shared_ptr<const UserShaderParts> shared_;
 };
 
+/// Images that the scene names, and those that a MaterialX document names itself: it converts their colours, too.
+std::map<std::string, ShaderImage> images_of(const std::filesystem::path& file, const UserShaderSettings& settings) {
+  std::map<std::string, ShaderImage> images = settings.images;
+  if (is_materialx(file))
+    for (const auto& [name, image] : translate_materialx(file).images) images.emplace(name, ShaderImage{image, true});
+  return images;
+}
+
 /// Fills in which files the images of the text are.
-void set_images(const UserShaderSettings& settings, ShaderInfo& info) {
+void set_images(const std::map<std::string, ShaderImage>& files, ShaderInfo& info) {
   std::vector<std::string> names;
   for (ShaderImageInfo& image : info.images) {
     names.push_back(image.name);
-    const auto found = settings.images.find(image.name);
-    if (found == settings.images.end())
+    const auto found = files.find(image.name);
+    if (found == files.end())
       throw Error("shader \"{}\": expected a file for its image \"{}\", found none", info.name, image.name);
     image.file = found->second.file, image.is_data = found->second.is_data;
   }
-  for (const auto& [name, image] : settings.images)
+  for (const auto& [name, image] : files)
     if (std::ranges::find(names, name) == names.end())
       throw Error("shader \"{}\": expected images {}, found \"{}\"", info.name,
                   names.empty() ? "to be none" : fmt::format("\"{}\"", fmt::join(names, "\", \"")), name);
@@ -52,7 +61,7 @@ std::shared_ptr<const Shader> make_user_shader(const std::filesystem::path& file
   if (is_plugin(file)) return make_plugin_shader(file, name, settings);
   ShaderInfo info = user_shader_info(file, name);
   ParameterValues values = parameter_values(info, settings.parameters);
-  set_images(settings, info);
+  set_images(images_of(file, settings), info);
   const ShaderSources sources = read_shader_sources(file);
   const ShaderSources text = stage_text(sources, info);
   std::vector<std::uint32_t> spirv = compile_glsl(text.text, text.names, kLoopGuard);

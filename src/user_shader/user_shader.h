@@ -1,5 +1,6 @@
 // Shaders of the user's own: a file becomes a Shader like the library's (docs/bring_your_shader.md). It is a text in
-// GLSL, NAME.glsl, or a plug-in (plugin.h), NAME.so, which runs as it is.
+// GLSL, NAME.glsl, a MaterialX document, NAME.mtlx, which becomes one, or a plug-in (plugin.h), NAME.so, which runs as
+// it is.
 //
 // The text may use all of GLSL 4.50. It is compiled when it is loaded, and runs on a Vulkan device, which is opened
 // when the shader first runs.
