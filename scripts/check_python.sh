@@ -21,5 +21,6 @@ rm -rf build/wheels
 "$environment/bin/pip" wheel -q --disable-pip-version-check --no-deps --no-build-isolation -w build/wheels .
 "$environment/bin/pip" install -q --disable-pip-version-check --no-deps --force-reinstall build/wheels/redmap-*.whl
 
-"$environment/bin/mypy" --config-file pyproject.toml tests/python
+# Without a cache, which would remember an older package.
+"$environment/bin/mypy" --cache-dir=/dev/null --config-file pyproject.toml tests/python
 REDMAP_PROGRAM=$program "$environment/bin/pytest" -q -p no:cacheprovider tests/python
