@@ -28,7 +28,7 @@ std::pair<Scene, std::vector<ObjectData>> make_gallery(Laboratory& laboratory) {
   Scene scene;
   std::vector<ObjectData> data;
   for (const Shown& shown : kShown) {
-    const BakedTexture& texture = laboratory.baked(shown.object, shown.shader);
+    const BakedTexture texture = laboratory.baked(shown.object, shown.shader);
     const int i = static_cast<int>(scene.objects.size());
     Object object;
     object.name = object.declared_name = std::string(shown.shader) + std::to_string(i);

@@ -31,7 +31,7 @@ Figure measure_fig4(Laboratory& laboratory) {
   double done = 0;
   for (const char* name : {"transparent", kBump}) {
     laboratory.step(done++ / 2);
-    const BakedTexture& texture = laboratory.baked("bunny", name);
+    const BakedTexture texture = laboratory.baked("bunny", name);
     const Scene scene = scene_of(texture, laboratory.options().map_size, 8);
     const SequenceErrors errors = measure_errors([&](int) { return scene; }, first_frame, texture.data, methods, spp);
     std::vector<Value> row{texture.shader->info().name, static_cast<double>(texture.map().basis.size())};

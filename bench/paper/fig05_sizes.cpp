@@ -46,7 +46,7 @@ Figure measure_fig5(Laboratory& laboratory) {
   double done = 0;
   for (const PaperTexture& paper : paper_textures()) {
     laboratory.step(done++ / static_cast<double>(paper_textures().size()));
-    const BakedTexture& texture = laboratory.baked(paper.object, paper.shader);
+    const BakedTexture texture = laboratory.baked(paper.object, paper.shader);
     BakeOptions options;
     options.size = laboratory.options().map_size, options.selection = BasisSelection::kPaper;
     const std::size_t basis = bake(*texture.surface, *texture.shader, options).basis.size();

@@ -49,7 +49,7 @@ Table make_table() {
 }
 
 Slider show_rule(Laboratory& laboratory) {
-  const BakedTexture& texture = laboratory.baked("bunny", kBump);
+  const BakedTexture texture = laboratory.baked("bunny", kBump);
   const Scene scene = scene_of(texture, laboratory.options().map_size, kMinification);
   RenderOptions options = paper_method().options;
   options.decisions = true;
@@ -80,7 +80,7 @@ Figure measure_fig6(Laboratory& laboratory) {
   double reached = 0, map_part = 0, done = 0;
   for (const char* bump : {"fbm.08", "fbm.25", "fbm.5"}) {
     laboratory.step(done++ / 3);
-    const BakedTexture& texture = laboratory.baked("bunny", bump);
+    const BakedTexture texture = laboratory.baked("bunny", bump);
     const Scene scene = scene_of(texture, laboratory.options().map_size, kMinification);
     const auto scene_at = [&](int frame) { return turned(scene, frame); };
     const RuleUse rule = measure_use(scene_at, frames, texture.data, paper_method().options);

@@ -55,7 +55,7 @@ std::vector<FarMethod> far_methods() {
 /// A column of the sheet, and a row of the table.
 std::vector<Value> add_texture(Laboratory& laboratory, const PaperTexture& paper, int column, Image& sheet,
                                Figure& figure) {
-  const BakedTexture& texture = laboratory.baked(paper.object, paper.shader);
+  const BakedTexture texture = laboratory.baked(paper.object, paper.shader);
   const int size = laboratory.options().map_size, spp = laboratory.samples(1024, 256);
   const auto fine = samples_method(laboratory.samples(64, 16)).options;
   place_in_cell(render_picture(scene_of(texture, size, kMagnified, 0, kCell), texture.data, fine), sheet, column, 0);

@@ -58,7 +58,7 @@ Figure measure_fig10(Laboratory& laboratory) {
   double slowest = 0, done = 0;
   for (const PaperTexture& paper : paper_textures()) {
     laboratory.step(done++ / static_cast<double>(paper_textures().size()));
-    const BakedTexture& texture = laboratory.baked(paper.object, paper.shader);
+    const BakedTexture texture = laboratory.baked(paper.object, paper.shader);
     const int repeats = laboratory.samples(5, 2);
     const BakeReport ours = fastest_bake(laboratory, texture, BasisSelection::kGreedy, repeats);
     const BakeReport theirs = fastest_bake(laboratory, texture, BasisSelection::kPaper, repeats);

@@ -79,7 +79,8 @@ Figure measure_filters(Laboratory& laboratory) {
                {"paper_over_ours", "the paper's / ours"},
                {"taps", "taps of ours"}},
               {}};
-  const WeightPyramid& map = laboratory.baked("sphere", "noise").map().weights;
+  const BakedTexture texture = laboratory.baked("sphere", "noise");
+  const WeightPyramid& map = texture.map().weights;
   Plot plot{"footprints",
             "Error of a lookup",
             "anisotropy",

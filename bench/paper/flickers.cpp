@@ -53,7 +53,7 @@ Figure measure_flickers(Laboratory& laboratory) {
   int below = 0, cases = 0;
   for (const PaperTexture& paper : paper_textures()) {
     laboratory.step(static_cast<double>(cases) / 2 / static_cast<double>(paper_textures().size()));
-    const BakedTexture& texture = laboratory.baked(paper.object, paper.shader);
+    const BakedTexture texture = laboratory.baked(paper.object, paper.shader);
     const Scene scene = scene_of(texture, laboratory.options().map_size, kMinification);
     const std::pair<const char*, double> motions[] = {{"1 degree a frame", kFastDegrees},
                                                       {".2 pixel a frame", degrees_for_pixels(scene, kSlowPixels)}};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <span>
@@ -56,8 +57,8 @@ class Laboratory {
 
   std::shared_ptr<const Surface> surface(const std::string& object);
   std::shared_ptr<const Shader> shader(const std::string& object, const std::string& name);
-  /// Baked at the first call.
-  const BakedTexture& baked(const std::string& object, const std::string& shader);
+  /// Baked at the first call, and kept as long as it is among the last few.
+  BakedTexture baked(const std::string& object, const std::string& shader);
 
   /// Figure `index` of `count` begins.
   void begin(const std::string& what, std::size_t index, std::size_t count);
@@ -67,7 +68,11 @@ class Laboratory {
  private:
   const PaperOptions& options_;
   std::map<std::string, std::shared_ptr<const Surface>> surfaces_;
-  std::map<std::pair<std::string, std::string>, BakedTexture> baked_;
+  struct Kept {
+    std::string object, shader;
+    BakedTexture texture;
+  };
+  std::list<Kept> baked_;  ///< the last used first
   std::string what_;
   double first_ = 0, width_ = 1;
 };

@@ -34,7 +34,7 @@ Figure measure_stages(Laboratory& laboratory) {
   double done = 0;
   for (const PaperTexture& paper : paper_textures()) {
     laboratory.step(done++ / static_cast<double>(paper_textures().size()));
-    const BakedTexture& texture = laboratory.baked(paper.object, paper.shader);
+    const BakedTexture texture = laboratory.baked(paper.object, paper.shader);
     Object object;
     object.name = paper.name, object.surface = texture.surface, object.shader = texture.shader;
     object.map_size = laboratory.options().map_size;

@@ -17,10 +17,14 @@ if ! cmp -s "$source_folder/package-lock.json" package-lock.json || [[ ! -d node
 fi
 
 small=(bench paper --quick --object sphere --size 32)
-rm -f report.json report.html
-"$redmap" "${small[@]}" --json report.json --html report.html >/dev/null 2>stderr &
+rm -f report.json report.html report.txt
+"$redmap" "${small[@]}" --json report.json --html report.html >report.txt 2>stderr &
 bench=$!
-sleep 0.5
+# In the middle: after the first figure.
+for ((i = 0; i < 600; ++i)); do
+  [[ ! -s report.txt ]] || break
+  sleep 0.1
+done
 kill -INT $bench
 status=0
 wait $bench || status=$?
