@@ -55,6 +55,7 @@ std::string constants_text(const ExportInput& input, const ObjectTraits& traits)
       "#define REDMAP_WIDTHS {3}\n#define REDMAP_LEAVES {4}\n",
       traits.basis, traits.has_coverage ? 1 : 0, traits.wraps_u ? 1 : 0, traits.widths, traits.leaves);
   if (traits.hides_frames) text += "#define REDMAP_HIDES_FRAMES\n";
+  if (traits.mends_seams) text += "#define REDMAP_MENDS\n";
   if (traits.draws_normals) text += "#define REDMAP_DRAWS_NORMALS\n";
   text += fmt::format("const vec4 redmap_map = {};\n", vec4_text(block.map));
   std::vector<std::string> scales;
@@ -84,6 +85,7 @@ std::string include_text(const ExportInput& input, const DeviceShader& shader, c
   text += kernel_texts({"hit_type", "footprint", "place", "lookup", "lobes"});
   if (traits.has_normals) text += kernel_text("normals");
   if (traits.leaves > 0) text += kernel_text("clusters");
+  if (traits.mends_seams) text += kernel_text("seams");
   text += shader_text_body(shader.sources, info, 0);
   text += parameters_text(*input.shader) + std::string(kGlslPatterns) + kernel_texts({"bind", "shade"});
   text += kernel_texts({"shade_map", "shade_spread", traits.has_normals ? "shade_normals" : "shade_turning"});
@@ -99,10 +101,10 @@ void export_glsl(const ExportInput& input, ExportFolder& folder) {
   if (!shader) throw Error("export: expected a shader in GLSL, found the plug-in '{}'", info.name);
   if (info.transmits || !info.images.empty())
     throw Error("export: expected an opaque shader without images for GLSL, found '{}'", info.name);
+  if (!input.map->tangents.empty())
+    throw Error("export: expected a map without turning grains for GLSL, found one of '{}'", info.name);
   ObjectTraits traits;
   set_map_traits(*input.map, *input.surface, traits);
-  traits.mends_seams = false;  // which needs the number of the triangle: not every language has it
-
   folder.add("redmap.glsl", include_text(input, *shader, traits));
   const WeightTexels weights = weight_texels(*input.map);
   folder.add("weights.bin", {reinterpret_cast<const char*>(weights.texels.data()), weights.texels.size()});

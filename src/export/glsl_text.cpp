@@ -58,14 +58,15 @@ vec3 redmap_arriving(uint l, RedmapHit hit, out vec3 to_light) {
 
 const std::string_view kGlslAfter = R"glsl(
 // What a fragment sees, all in object space: interpolated position and normal, the tangent of mesh.bin, uv of the map
-// (v upwards), and the unit vector to the viewer. Takes derivatives: call it where all fragments do.
-RedmapHit redmap_seen(vec3 position, vec3 normal, vec3 tangent, vec2 uv, vec3 to_viewer) {
+// (v upwards), the unit vector to the viewer, and the flat number of the triangle that mesh.bin gives each vertex. Takes
+// derivatives: call it where all fragments do.
+RedmapHit redmap_seen(vec3 position, vec3 normal, vec3 tangent, vec2 uv, vec3 to_viewer, uint triangle) {
   RedmapHit hit;
   hit.position = position;
   hit.normal = normalize(normal);
   hit.to_viewer = to_viewer;
   hit.uv = uv;
-  hit.triangle = 0u;
+  hit.triangle = triangle;
   hit.duv_dx = dFdx(uv);
   hit.duv_dy = dFdy(uv);
 #if REDMAP_WRAPS

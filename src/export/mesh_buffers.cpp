@@ -13,7 +13,8 @@ constexpr int kColumns = 256, kRows = 128;
 
 std::array<float, 3> array_of(Vec3 v) { return {v.x, v.y, v.z}; }
 
-void add_vertex(Vec3 position, Vec3 normal, Vec3 tangent, Vec2 uv, MeshBuffers& mesh) {
+void add_vertex(Vec3 position, Vec3 normal, Vec3 tangent, Vec2 uv, std::size_t triangle, MeshBuffers& mesh) {
+  mesh.triangles.push_back(static_cast<std::uint32_t>(triangle));
   mesh.positions.push_back(array_of(position)), mesh.normals.push_back(array_of(normal));
   mesh.tangents.push_back({tangent.x, tangent.y, tangent.z, 1});
   mesh.uv.push_back({uv.x, uv.y});
@@ -28,7 +29,7 @@ MeshBuffers grid_of(const Surface& surface) {
   std::vector<SurfaceHit> hits(where.size());
   surface.complete(where, hits);
   for (std::size_t i = 0; i < hits.size(); ++i)
-    add_vertex(hits[i].position, hits[i].normal, hits[i].tangent, where[i].coordinates, mesh);
+    add_vertex(hits[i].position, hits[i].normal, hits[i].tangent, where[i].coordinates, 0, mesh);
   for (std::uint32_t j = 0; j < kRows; ++j)
     for (std::uint32_t i = 0; i < kColumns; ++i) {
       const std::uint32_t a = j * (kColumns + 1) + i, b = a + 1, c = a + kColumns + 1, d = c + 1;
@@ -64,7 +65,7 @@ MeshBuffers vertices_of(const TriangleMesh& mesh) {
                                              mesh.uv_triangles[t][k]};
       const auto [found, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(tangents.size()));
       if (is_new) {
-        add_vertex(mesh.positions[key[0]], normalized(mesh.normals[key[1]]), {}, mesh.uv[key[2]], all);
+        add_vertex(mesh.positions[key[0]], normalized(mesh.normals[key[1]]), {}, mesh.uv[key[2]], t, all);
         tangents.push_back({});
       }
       all.indices.push_back(found->second);
@@ -98,6 +99,8 @@ std::string mesh_bytes(const MeshBuffers& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     append(mesh.positions[i].data(), 3), append(mesh.normals[i].data(), 3);
     append(mesh.tangents[i].data(), 3), append(mesh.uv[i].data(), 2);
+    const float triangle = static_cast<float>(mesh.triangles[i]);
+    append(&triangle, 1);
   }
   append(mesh.indices.data(), mesh.indices.size());
   return bytes;

@@ -104,7 +104,9 @@ RedmapTexel redmap_mended(RedmapFootprint f, uint triangle, RedmapTexel texel) {
     RedmapTexel one = redmap_taps(redmap_plan(piece.uv, redmap_axes(piece.dx, piece.dy)));
     for (int k = 0; k < redmap_layers; k++) sum.channels[k] += one.channels[k] / float(redmap_pieces);
   }
-  return redmap_coverage(sum) < redmap_least_coverage ? texel : sum;
+  // No ?: of structs: WebGL has none.
+  if (redmap_coverage(sum) < redmap_least_coverage) return texel;
+  return sum;
 }
 
 float[REDMAP_BASIS] redmap_look_up_over_seams(RedmapHit hit, RedmapAxes axes) {
