@@ -199,7 +199,8 @@ class Text:
         """Uniforms become variables: the viewer and the lights are set, time is the Surface's, others are the document's."""
         known = {"u_viewPosition": "vec3", "u_numActiveLightSources": "int", "u_time": "float", "u_frame": "float"}
         self.uniforms = [name for _, name in uniforms if name in known]
-        lines = [f"{known[name]} {name};" for name in self.uniforms]
+        always = ["u_viewPosition", "u_numActiveLightSources"]
+        lines = [f"{known[name]} {name};" for name in always + [name for name in self.uniforms if name not in always]]
         if not any(name == "u_refractionTwoSided" for _, name in uniforms):
             lines.append("const bool u_refractionTwoSided = false;")
         return "\n".join(lines) + "\n"
@@ -356,7 +357,8 @@ def radiance_of_split(emits):
 
 
 def black_box(text):
-    viewer = "  u_viewPosition = vd.positionWorld + mtlx_to_viewer;\n" if "u_viewPosition" in text.uniforms else ""
+    has_position = any(name == "positionWorld" for _, name in text.vertex_data)
+    viewer = f"  u_viewPosition = {'vd.positionWorld' if has_position else 'vec3(0.0)'} + mtlx_to_viewer;\n"
     return ("vec3 mtlx_to_viewer;\n" + evaluate(text, viewer + text.main) +
             "vec3 radiance(Surface at, Parameters p, vec3 to_light, vec3 to_viewer) {\n"
             "  if (dot(to_light, at.normal) <= 0.0 || dot(to_viewer, at.normal) <= 0.0) return vec3(0.0);\n"

@@ -58,6 +58,24 @@ def test_slopes_of_heights_turn_the_normal(tmp_path: Path) -> None:
 WHITE = '<input name="base_color" type="color3" value="1, 1, 1" />'
 
 
+def test_pictures_are_found_beside_the_document_in_their_colours(tmp_path: Path) -> None:
+    # Linear .5, 1, .25 as bytes of sRGB.
+    redmap.write_image(tmp_path / "flat.png", np.tile(floats([0.5, 1, 0.25]), (4, 4, 1)))
+    body = """<image name="flat" type="color3">
+      <input name="file" type="filename" value="flat.png" colorspace="srgb_texture" /></image>"""
+    shader = redmap.shader(document(tmp_path, body + DULL % '<input name="base_color" type="color3" nodename="flat" />'))
+    up = floats([[0, 1, 0]])
+    assert shader.radiance(up, up, up, up)[0] == pytest.approx(np.array([0.5, 1, 0.25]) / np.pi, abs=2e-3)
+
+
+def test_emission_is_no_radiance(tmp_path: Path) -> None:
+    glow = '<input name="emission" type="float" value="2" /><input name="emission_color" type="color3" value="1, 0, 0" />'
+    shader = redmap.shader(document(tmp_path, DULL % (WHITE + glow)))
+    up, below = floats([[0, 1, 0]]), floats([[0, -1, 0]])
+    assert shader.radiance(up, up, below, up)[0] == pytest.approx([2, 0, 0], abs=1e-5)
+    assert shader.radiance(up, up, up, up)[0] == pytest.approx(np.array([2, 0, 0]) + 1 / np.pi, abs=1e-5)
+
+
 def test_mixtures_are_black_boxes(tmp_path: Path) -> None:
     body = """<oren_nayar_diffuse_bsdf name="one" type="BSDF"><input name="color" type="color3" value="1, 0, 0" />
         </oren_nayar_diffuse_bsdf>
