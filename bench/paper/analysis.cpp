@@ -72,7 +72,7 @@ double signed_residual(const ReflectanceGrid& grid, const std::vector<Eigen::Vec
 }
 
 /// Light at 30 and viewer at 75 degrees on the other side, away from the highlight: its place in the paper's table.
-constexpr int kDullSample = 30;
+constexpr int kDullSample = 12;
 
 /// Radiance of a scaled vector there, its largest channel 1.
 std::string colour_of(const ReflectanceGrid& grid, const float* scaled) {

@@ -64,7 +64,7 @@ QualityOptions options_for(Laboratory& laboratory) {
   QualityOptions options;
   options.objects = {laboratory.options().object.empty() ? "bunny" : laboratory.options().object};
   options.shaders = {"noise", "scales", "stone", "marble", "two_tinted_satin", "wood"};
-  options.minifications = {2, 4, kNear, 16, 32};
+  options.minifications = {4, kNear, 16, 32};
   if (laboratory.quick()) options.shaders = {"scales", "marble"}, options.minifications = {4, kNear, 16};
   options.map_size = laboratory.options().map_size;
   options.reference_spp = laboratory.samples(1024, 256);
