@@ -60,17 +60,8 @@ std::string add(const Texture& texture, ExportFolder& folder) {
 
 void export_tx(const ExportInput& input, ExportFolder& folder) {
   Json manifest = manifest_of(input, "tx");
-  const OneMaterial one = average_material(*input.map, input.fits);
-  Json files{{"base_color", add(one.base_color, folder)},
-             {"metallic_roughness", add(one.metallic_roughness, folder)},
-             {"specular", one.specular}};
-  if (one.emission) files["emission"] = add(*one.emission, folder), files["emission_scale"] = one.emission_scale.r;
-  if (one.transmission) files["transmission"] = add(*one.transmission, folder);
-  if (const auto normals = normal_textures(*input.map)) {
-    files["normal"] = add(normals->normal, folder);
-    manifest["spread"] = {{"file", add(normals->spread, folder)}};
-  }
-  manifest["one_material"] = std::move(files);
+  add_one_material(
+      input, [&](const Texture& texture) { return add(texture, folder); }, manifest);
   const Masks masks = mask_textures(*input.map);
   manifest["masks"] = masks_json(
       masks, [&](std::size_t b, Json& mask) { mask["file"] = add(masks.textures[b], folder), mask["channel"] = 0; });

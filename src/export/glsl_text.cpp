@@ -100,7 +100,7 @@ vec3 redmap_shade(RedmapHit hit, vec3 to_light[REDMAP_LIGHTS], vec3 irradiance[R
   vec3 sum = vec3(0.0);
   if (part < 1.0) sum = redmap_original(hit) * (1.0 - part);
   if (part <= 0.0) return sum;
-  for (uint b = 0u; b < uint(REDMAP_BASIS); b++) redmap_patterns[b] = redmap_bound(b);
+  for (uint b = 0u; b < uint(REDMAP_BASIS); b++) redmap_patterns[b] = redmap_bound(redmap_basis_place(b));
   vec3 turn = redmap_curvature(hit);
   redmap_stage = turn.x + turn.z > redmap_map.w ? redmap_spread_stage : redmap_far_stage;
   return sum + redmap_filtered(hit, axes, 0u) * part;

@@ -39,6 +39,20 @@ Json manifest_of(const ExportInput& input, const std::string& kind) {
   return manifest;
 }
 
+void add_one_material(const ExportInput& input, const std::function<std::string(const Texture&)>& add, Json& manifest) {
+  const OneMaterial one = average_material(*input.map, input.fits);
+  Json files{{"base_color", add(one.base_color)},
+             {"metallic_roughness", add(one.metallic_roughness)},
+             {"specular", one.specular}};
+  if (one.emission) files["emission"] = add(*one.emission), files["emission_scale"] = one.emission_scale.r;
+  if (one.transmission) files["transmission"] = add(*one.transmission);
+  if (const auto normals = normal_textures(*input.map)) {
+    files["normal"] = add(normals->normal);
+    manifest["spread"] = {{"file", add(normals->spread)}};
+  }
+  manifest["one_material"] = std::move(files);
+}
+
 void add_manifest(const Json& manifest, ExportFolder& folder) {
   folder.add(ExportFolder::kManifest, manifest.dump(2) + "\n");
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/kernel_texts.h"
 #include "gpu/nnls_text.h"
 #include "user_shader/stages.h"
 
@@ -104,24 +105,6 @@ bool redmap_sound(RedmapSums redmap_s) {
 constexpr std::string_view kCalls = R"(
 layout(binding = redmap_parameters_binding) uniform RedmapParameters { Parameters redmap_parameters; };
 
-REDMAP_BOUND redmap_bind(uint redmap_i) {
-  Surface redmap_at = redmap_place(redmap_i);
-#ifndef REDMAP_BLACK_BOX
-  return pattern(redmap_at, redmap_parameters);
-#elif defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
-  vec3 redmap_n = redmap_at.normal, redmap_t = redmap_at.tangent;
-#ifdef REDMAP_PERTURBS
-  redmap_n = shading_normal(redmap_at, redmap_parameters);
-#endif
-#ifdef REDMAP_TURNS
-  redmap_t = normalize(shading_tangent(redmap_at, redmap_parameters));
-#endif
-  return redmap_framed(redmap_at, redmap_n, redmap_t);
-#else
-  return RedmapPlace(redmap_at, redmap_at.normal, redmap_at.tangent);
-#endif
-}
-
 vec3 redmap_radiance(REDMAP_BOUND redmap_m, vec3 redmap_l, vec3 redmap_v) {
 #ifdef REDMAP_BLACK_BOX
   return radiance(redmap_m.at, redmap_parameters, redmap_to_object(redmap_m, redmap_l),
@@ -138,7 +121,7 @@ void main() {
   uint redmap_i = gl_GlobalInvocationID.x;
   if (redmap_i >= redmap_count || !redmap_goes_on()) return;
   redmap_rounds = 0u;
-  REDMAP_BOUND redmap_m = redmap_bind(redmap_i);
+  REDMAP_BOUND redmap_m = redmap_bound(redmap_place(redmap_i));
   RedmapSums redmap_s = RedmapSums(vec3(0.0), vec3(0.0), 0.0, redmap_ended());
   redmap_rounds = 0u;
 )";
@@ -178,7 +161,7 @@ void main() {
   uvec2 redmap_last_key = uvec2(0u);
   for (uint redmap_i = redmap_begin; redmap_i < redmap_end; redmap_i++) {
     redmap_rounds = 0u;
-    REDMAP_BOUND redmap_m = redmap_bind(redmap_i);
+    REDMAP_BOUND redmap_m = redmap_bound(redmap_place(redmap_i));
     RedmapSums redmap_s = RedmapSums(vec3(0.0), vec3(0.0), 0.0, redmap_ended());
     redmap_rounds = 0u;
     RedmapProducts redmap_p;
@@ -261,7 +244,8 @@ ShaderSources whole_text(const DeviceShader& shader, const ShaderInfo& info, std
   all.text = "#version 450\n" + line + shader_text_head(info) + fmt::format("#define redmap_out_type {}\n", out_type) +
              fmt::format("#define redmap_parameters_binding {}\n", kBakeBuffers + info.images.size()) +
              fmt::format("const uint redmap_most_rounds = {}u;\n", kMostRounds) + std::string(kBefore) +
-             shader_text_body(shader.sources, info, kBakeBuffers) + line + std::string(kCalls) + ours;
+             shader_text_body(shader.sources, info, kBakeBuffers) + line + std::string(kCalls) +
+             std::string(kernel_text("bind")) + ours;
   return all;
 }
 

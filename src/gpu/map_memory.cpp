@@ -34,6 +34,18 @@ void append(const LobeModel::Colour& c, Words& words) {
   for (const float value : c) append(value, words);
 }
 
+/// How bright a reflectance gets: in the middle of its highlight, with light and viewer 30 degrees from the half
+/// vector.
+float brightness(const LobeModel& model, const std::vector<int>& used) {
+  const LobeModel::Angle& angle = model.angles[3];
+  float sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    sum += angle.constant[c] + angle.cosine[c];
+    for (const int k : used) sum += angle.amplitude[k][c];
+  }
+  return std::max(sum / 3, 1e-6f);
+}
+
 /// Widths that are not used are 1 wide and have no amplitude.
 void append_model(const LobeModel& model, int widths, Words& words) {
   const WidthsInUse in_use = widths_in_use(model);
@@ -42,7 +54,7 @@ void append_model(const LobeModel& model, int widths, Words& words) {
     if (in_use[k]) used.push_back(k);
   append(narrowest_highlight(model), words);
   append(model.error <= kTrustedError ? 1.0f : 0.0f, words);
-  append(static_cast<float>(used.size()), words), append(0.0f, words);
+  append(static_cast<float>(used.size()), words), append(brightness(model, used), words);
   const auto is_used = [&](int k) { return k < static_cast<int>(used.size()); };
   for (int k = 0; k < widths; ++k) append(is_used(k) ? LobeModel::width(used[k]) : 1.0f, words);
   for (const LobeModel::Angle& angle : model.angles) {

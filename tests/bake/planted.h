@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "shader/shader.h"
+#include "shader/patterns_by_function.h"
 #include "surface/surface.h"
 
 namespace redmap {
@@ -53,33 +53,15 @@ class SquareSurface : public Surface {
 /// cosine.
 using PlantedWeights = std::function<Vec3(Vec3 position)>;
 
-class PlantedPatterns : public BoundPatterns {
+class PlantedPatterns : public PatternsByFunction {
  public:
   PlantedPatterns(const SurfacePoints& points, const PlantedWeights& weights) : weights_(points.size()) {
     for (std::size_t i = 0; i < points.size(); ++i) weights_.set(i, weights(points.position.get(i)));
   }
   std::size_t size() const override { return weights_.size(); }
-  void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
-    out.resize(size());
-    for (std::size_t i = 0; i < size(); ++i) out.set(i, radiance(i, pairs, i));
-  }
-  void radiance_one(std::size_t pattern, const DirectionPairs& pairs, Planes<3>& out) const override {
-    out.resize(pairs.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i) out.set(i, radiance(pattern, pairs, i));
-  }
-  void radiance_all(const DirectionPairs& pairs, LaneVector<float>& out) const override {
-    const std::size_t stride = padded(size());
-    out.assign(pairs.size() * 3 * stride, 0.0f);
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-      for (std::size_t i = 0; i < size(); ++i)
-        for (int c = 0; c < 3; ++c) out[(p * 3 + c) * stride + i] = radiance(i, pairs, p)[c];
-  }
-  void transmittance(Planes<3>& out) const override { out = Planes<3>(size()); }
-  void emission(Planes<3>& out) const override { out = Planes<3>(size()); }
-  bool materials(Materials&) const override { return false; }
 
  private:
-  Vec3 radiance(std::size_t pattern, const DirectionPairs& pairs, std::size_t pair) const {
+  Vec3 radiance(std::size_t pattern, const DirectionPairs& pairs, std::size_t pair) const override {
     const Vec3 w = weights_.get(pattern);
     const float light = std::max(0.0f, pairs.to_light[2][pair]), viewer = std::max(0.0f, pairs.to_viewer[2][pair]);
     return {w.x * light, w.y * light * light, w.z * viewer};

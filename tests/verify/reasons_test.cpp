@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "bake/bake.h"
+#include "shader/patterns_by_function.h"
 #include "surface/atlas.h"
 #include "surface/mesh.h"
 #include "surface/shapes.h"
@@ -17,34 +18,16 @@ namespace {
 /// Grey radiance of one stripe or the other, directions in the shading frame, both above the horizon.
 using StripeRadiance = std::function<float(bool in_stripe, Vec3 to_light, Vec3 to_viewer)>;
 
-class StripedPatterns : public BoundPatterns {
+class StripedPatterns : public PatternsByFunction {
  public:
   StripedPatterns(const SurfacePoints& points, const StripeRadiance& radiance)
       : in_stripe_(points.size()), radiance_(radiance) {
     for (std::size_t i = 0; i < points.size(); ++i) in_stripe_[i] = std::sin(6 * points.position.get(i).y) > 0;
   }
   std::size_t size() const override { return in_stripe_.size(); }
-  void radiance_each(const DirectionPairs& pairs, Planes<3>& out) const override {
-    out.resize(size());
-    for (std::size_t i = 0; i < size(); ++i) out.set(i, radiance(i, pairs, i));
-  }
-  void radiance_one(std::size_t pattern, const DirectionPairs& pairs, Planes<3>& out) const override {
-    out.resize(pairs.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i) out.set(i, radiance(pattern, pairs, i));
-  }
-  void radiance_all(const DirectionPairs& pairs, LaneVector<float>& out) const override {
-    const std::size_t stride = padded(size());
-    out.assign(pairs.size() * 3 * stride, 0.0f);
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-      for (std::size_t i = 0; i < size(); ++i)
-        for (int c = 0; c < 3; ++c) out[(p * 3 + c) * stride + i] = radiance(i, pairs, p)[c];
-  }
-  void transmittance(Planes<3>& out) const override { out = Planes<3>(size()); }
-  void emission(Planes<3>& out) const override { out = Planes<3>(size()); }
-  bool materials(Materials&) const override { return false; }
 
  private:
-  Vec3 radiance(std::size_t pattern, const DirectionPairs& pairs, std::size_t pair) const {
+  Vec3 radiance(std::size_t pattern, const DirectionPairs& pairs, std::size_t pair) const override {
     const Vec3 light = pairs.to_light.get(pair), viewer = pairs.to_viewer.get(pair);
     if (light.z <= 0 || viewer.z <= 0) return {};
     const float value = radiance_(in_stripe_[pattern], light, viewer);

@@ -1,6 +1,5 @@
-// The object's text bound to a place of the basis.
-REDMAP_BOUND redmap_bound(uint redmap_b) {
-  Surface redmap_at = redmap_basis_place(redmap_b);
+// The object's text bound to a place, for frames and for bakes.
+REDMAP_BOUND redmap_bound(Surface redmap_at) {
 #ifndef REDMAP_BLACK_BOX
   return pattern(redmap_at, redmap_parameters);
 #elif defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
@@ -16,4 +15,3 @@ REDMAP_BOUND redmap_bound(uint redmap_b) {
   return RedmapPlace(redmap_at, redmap_at.normal, redmap_at.tangent);
 #endif
 }
-

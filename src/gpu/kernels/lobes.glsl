@@ -4,7 +4,8 @@ const uint redmap_angle_floats = 7u + 3u * uint(REDMAP_WIDTHS);
 const uint redmap_model_floats = 4u + uint(REDMAP_WIDTHS) + 9u * redmap_angle_floats;
 const uint redmap_drawn_first = uint(REDMAP_BASIS) * (redmap_place_floats + redmap_model_floats);
 
-// The record of a basis reflectance: narrowest highlight, whether it is to be trusted, how many widths; the widths.
+// The record of a basis reflectance: narrowest highlight, whether it is to be trusted, how many widths, how bright it
+// gets; the widths.
 uint redmap_model(uint b) { return uint(REDMAP_BASIS) * redmap_place_floats + b * redmap_model_floats; }
 float redmap_width(uint b, uint k) { return redmap_number(redmap_model(b) + 4u + k); }
 

@@ -6,7 +6,7 @@ void main() {
 #endif
 #if REDMAP_BASIS > 0
   if (redmap_stage == redmap_bind_stage) {
-    if (redmap_i < uint(REDMAP_BASIS)) redmap_patterns[redmap_i] = redmap_bound(redmap_i);
+    if (redmap_i < uint(REDMAP_BASIS)) redmap_patterns[redmap_i] = redmap_bound(redmap_basis_place(redmap_i));
     redmap_ended(0u);
     return;
   }

@@ -49,13 +49,6 @@ RedmapSmooth redmap_smooth_of(uint redmap_b) {
   RedmapLobes redmap_lobes = redmap_lobes_at(redmap_b, redmap_middle_angle);
   return RedmapSmooth(redmap_lobes.constant, redmap_lobes.cosine);
 }
-// How bright a basis reflectance gets: in the middle of its highlight.
-float redmap_brightness(uint redmap_b) {
-  RedmapLobes redmap_lobes = redmap_lobes_at(redmap_b, redmap_middle_angle);
-  vec3 redmap_sum = redmap_lobes.constant + redmap_lobes.cosine;
-  for (uint redmap_k = 0u; redmap_k < uint(REDMAP_WIDTHS); redmap_k++) redmap_sum += redmap_lobes.amplitude[redmap_k];
-  return max(redmap_luminance(redmap_sum), 1e-6);
-}
 vec3 redmap_at_cosine(RedmapSmooth redmap_s, float redmap_c) { return redmap_s.constant + redmap_s.cosine * redmap_c; }
 
 // One basis reflectance a light, drawn by its part of the brightness (paper, section 7, which draws one for all lights by
@@ -68,7 +61,7 @@ vec3 redmap_drawn(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS], uint redm
     RedmapSmooth redmap_s = redmap_smooth_of(redmap_b);
     redmap_mixed.constant += redmap_w[redmap_b] * redmap_s.constant;
     redmap_mixed.cosine += redmap_w[redmap_b] * redmap_s.cosine;
-    redmap_bright[redmap_b] = redmap_brightness(redmap_b);
+    redmap_bright[redmap_b] = redmap_number(redmap_model(redmap_b) + 3u);
     redmap_total += redmap_w[redmap_b] * redmap_bright[redmap_b];
   }
   vec3 redmap_sum = redmap_emission(redmap_w);
