@@ -1,20 +1,18 @@
 #!/usr/bin/env bash
 # The report of a small `redmap bench paper`, opened in headless Chromium; an interrupted one leaves nothing.
-#   page_test.sh REDMAP_BINARY FOLDER, where node_modules and screenshots go
+#   page_test.sh REDMAP_BINARY FOLDER, where the report and screenshots go
 set -euo pipefail
 source_folder=$(cd "$(dirname "$0")" && pwd)
+tools=$source_folder/../../build/export
 redmap=$1
 folder=$2
-for program in node npm "${CHROMIUM:-/usr/bin/chromium}"; do
+for program in node "${CHROMIUM:-/usr/bin/chromium}"; do
   command -v "$program" >/dev/null || { echo "there is no $program; scripts/setup.sh installs it"; exit 77; }
 done
+[[ -d $tools/node_modules/playwright-core ]] || { echo "there is no playwright-core; scripts/export/install_tools.sh fetches it"; exit 77; }
 
 mkdir -p "$folder"
 cd "$folder"
-if ! cmp -s "$source_folder/package-lock.json" package-lock.json || [[ ! -d node_modules/playwright-core ]]; then
-  cp "$source_folder/package.json" "$source_folder/package-lock.json" .
-  npm ci --ignore-scripts --no-audit --no-fund --loglevel=error || { rm -f package-lock.json; exit 1; }
-fi
 
 small=(bench paper --quick --object sphere --size 32)
 rm -f report.json report.html report.txt
@@ -43,4 +41,4 @@ for figure in report["figures"]:
         keys = {column["key"] for column in table["columns"]}
         assert table["rows"] and all(set(row) == keys for row in table["rows"]), table["key"]
 PYTHON
-node "$source_folder/page_test.mjs" node_modules report.html .
+node "$source_folder/page_test.mjs" "$tools/node_modules" report.html .
