@@ -32,8 +32,9 @@ Exported export_all(const ObjectData& data, const Shader& shader) {
   const auto masks = std::make_shared<const Masks>(mask_textures(*data.map));
   const auto normals = std::make_shared<const std::optional<NormalTextures>>(normal_textures(*data.map));
   const auto one = std::make_shared<const OneMaterial>(average_material(*data.map, all.fits));
-  all.materials = [masks, normals, fits = all.fits](const Object& object) {
-    return make_masked_shading(object.shader, *masks, fits, *normals);
+  const auto grain = std::make_shared<const std::optional<Texture>>(grain_texture(*data.map));
+  all.materials = [masks, normals, grain, fits = all.fits](const Object& object) {
+    return make_masked_shading(object.shader, *masks, fits, *normals, *grain);
   };
   all.one = [one](const Object& object) { return make_one_material_shading(object.shader, *one); };
   return all;

@@ -1,8 +1,12 @@
 #include "export/export_folder.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <string>
+#include <system_error>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -44,13 +48,21 @@ ExportFolder::~ExportFolder() {
 void ExportFolder::add(std::string_view name, std::string_view bytes) { write_file(temporary_ / name, bytes); }
 
 void ExportFolder::commit() {
-  std::error_code failure;
-  // An earlier export steps aside: at no moment is a folder of that name half old and half new.
-  const fs::path before = temporary_.string() + ".old";
-  if (fs::exists(target_)) fs::rename(target_, before, failure);
-  if (!failure) fs::rename(temporary_, target_, failure);
-  if (failure) throw Error("{}: cannot be replaced: {}", target_.string(), failure.message());
-  fs::remove_all(before, failure);
+  const auto rename = [&](unsigned flags) {
+    return renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), flags) == 0;
+  };
+  // An earlier export and this one change places in one step: whoever is killed, the folder is one of them, whole. The
+  // earlier one, under the temporary name then, is removed with this object.
+  bool done = rename(fs::exists(target_) ? RENAME_EXCHANGE : RENAME_NOREPLACE);
+  // Some network file systems know no such step: there the folder is away for a moment.
+  if (!done && errno == EINVAL) {
+    const fs::path before = temporary_.string() + ".old";
+    std::error_code failure;
+    if (fs::exists(target_)) fs::rename(target_, before, failure);
+    done = rename(0);
+    fs::remove_all(before, failure);
+  }
+  if (!done) throw Error("{}: cannot be replaced: {}", target_.string(), std::generic_category().message(errno));
 }
 
 }  // namespace redmap

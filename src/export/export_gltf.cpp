@@ -127,6 +127,10 @@ int add_averaged(const ExportInput& input, const OneMaterial& one, GltfWriter& w
     set_emission(one.emission_scale, material, writer);
     material["emissiveTexture"] = {{"index", writer.add_texture(*one.emission)}};
   }
+  if (one.anisotropy)
+    set_extension("KHR_materials_anisotropy",
+                  {{"anisotropyStrength", 1}, {"anisotropyTexture", {{"index", writer.add_texture(*one.anisotropy)}}}},
+                  material, writer);
   if (one.specular < 1) set_extension("KHR_materials_specular", {{"specularFactor", one.specular}}, material, writer);
   if (one.transmission)
     set_extension(
@@ -148,6 +152,10 @@ int add_fitted(const std::string& name, const GltfMaterial& m, int normal_textur
   if (m.coat > 0)
     set_extension("KHR_materials_clearcoat",
                   {{"clearcoatFactor", m.coat}, {"clearcoatRoughnessFactor", m.coat_roughness}}, material, writer);
+  if (m.anisotropy > 0)
+    set_extension("KHR_materials_anisotropy",
+                  {{"anisotropyStrength", m.anisotropy}, {"anisotropyRotation", m.anisotropy_rotation}}, material,
+                  writer);
   if (m.transmission > 0)
     set_extension("KHR_materials_transmission", {{"transmissionFactor", m.transmission}}, material, writer);
   if (m.emission.r + m.emission.g + m.emission.b > 0) set_emission(m.emission, material, writer);
@@ -171,8 +179,14 @@ void add_masked(const ExportInput& input, int normal_texture, GltfWriter& writer
     mask["material"] = add_fitted(fmt::format("{} {}", input.name, b), input.fits[b].material, normal_texture, writer);
   });
   if (const auto normals = normal_textures(*input.map)) {
-    manifest["spread"] = {{"texture", writer.add_texture(normals->spread)}, {"file", "spread.png"}};
+    manifest["moments"] = {
+        {"texture", writer.add_texture(normals->moments)}, {"file", "moments.png"}, {"scale", normals->scale}};
+    manifest["normal_fine"] = {{"texture", writer.add_texture(normals->normal_fine)}, {"file", "normal_fine.png"}};
+    manifest["moments"]["fine_texture"] = writer.add_texture(normals->moments_fine);
+    manifest["moments"]["fine"] = "moments_fine.png";
   }
+  if (const auto grain = grain_texture(*input.map))
+    manifest["grain"] = {{"texture", writer.add_texture(*grain)}, {"file", "grain.png"}};
 }
 
 }  // namespace

@@ -59,6 +59,16 @@ std::string image_node(const std::string& name, const char* type, const std::str
       name, type, escaped(file), colorspace);
 }
 
+/// standard_surface divides and multiplies squared roughness by sqrt(1 - anisotropy), along its rotation and across.
+std::string roughness_inputs(const GltfMaterial& m) {
+  if (m.anisotropy <= 0) return input("specular_roughness", "float", text_of(m.roughness));
+  constexpr float kMostAnisotropic = 0.98f;  // of the node roughness_anisotropy
+  const float across = m.roughness * m.roughness, along = across + (1 - across) * m.anisotropy * m.anisotropy;
+  return input("specular_roughness", "float", text_of(std::pow(along * across, 0.25f))) +
+         input("specular_anisotropy", "float", text_of(std::min(kMostAnisotropic, 1 - across / along))) +
+         input("specular_rotation", "float", text_of(m.anisotropy_rotation / (2 * kPi)));
+}
+
 /// A fitted material. standard_surface's specular is white over a diffuse part, its metal takes the base colour.
 std::string surface_node(const std::string& name, const GltfMaterial& m, bool has_normal) {
   const float reflectance = kGltfReflectance * largest(m.specular_color);
@@ -69,7 +79,7 @@ std::string surface_node(const std::string& name, const GltfMaterial& m, bool ha
   text += input("base", "float", "1") + input("base_color", "color3", text_of(m.base_color));
   text += input("metalness", "float", text_of(m.metallic)) + input("specular", "float", text_of(m.specular));
   text += input("specular_color", "color3", text_of(tint)) + input("specular_IOR", "float", text_of(ior));
-  text += input("specular_roughness", "float", text_of(m.roughness));
+  text += roughness_inputs(m);
   if (m.coat > 0)
     text += input("coat", "float", text_of(m.coat)) + input("coat_roughness", "float", text_of(m.coat_roughness));
   if (m.transmission > 0)

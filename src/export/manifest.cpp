@@ -16,6 +16,8 @@ Json json_of(const GltfMaterial& m) {
           {"specular_color", array_of(m.specular_color)},
           {"coat", m.coat},
           {"coat_roughness", m.coat_roughness},
+          {"anisotropy", m.anisotropy},
+          {"anisotropy_rotation", m.anisotropy_rotation},
           {"transmission", m.transmission},
           {"emission", array_of(m.emission)}};
 }
@@ -48,8 +50,12 @@ void add_one_material(const ExportInput& input, const std::function<std::string(
   if (one.transmission) files["transmission"] = add(*one.transmission);
   if (const auto normals = normal_textures(*input.map)) {
     files["normal"] = add(normals->normal);
-    manifest["spread"] = {{"file", add(normals->spread)}};
+    manifest["normal_fine"] = {{"file", add(normals->normal_fine)}};
+    manifest["moments"] = {
+        {"file", add(normals->moments)}, {"fine", add(normals->moments_fine)}, {"scale", normals->scale}};
   }
+  if (one.anisotropy) files["anisotropy"] = add(*one.anisotropy);
+  if (const auto grain = grain_texture(*input.map)) manifest["grain"] = {{"file", add(*grain)}};
   manifest["one_material"] = std::move(files);
 }
 

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 /// Of all kinds: format, shader, map, and the materials that were fitted, with their errors.
 Json manifest_of(const ExportInput& input, const std::string& kind);
 Json json_of(const GltfMaterial& material);
-/// The averaged material, and normals with their spread where the map has them. `add` writes a texture and returns the
+/// The averaged material, and normals with their moments where the map has them. `add` writes a texture and returns the
 /// name of its file.
 void add_one_material(const ExportInput& input, const std::function<std::string(const Texture&)>& add, Json& manifest);
 /// Which mask stands in which file and channel or layer, and its scale: `place` fills in the rest.

@@ -22,10 +22,8 @@ constexpr float kLeastAngle = 0.003f;
 // lobes about the half vector part beyond, and a fit to both ends would be good at neither (docs/export.md).
 constexpr float kWidestDifference = 0.25f * kPi;
 constexpr float kLeastCosine = 0.03f;  // of light and viewer
-// Narrower lobes than glTF's viewers draw (three.js clamps roughness there).
-constexpr double kLeastRoughness = 0.0525;
-// A coat has to earn its keep.
-constexpr float kCoatGain = 0.8f, kGoodWithoutCoat = 0.01f;
+// A coat has to earn its keep, and so has anisotropy.
+constexpr float kGain = 0.8f, kGoodWithout = 0.01f;
 
 /// Directions, what is reflected in them, and what each counts.
 struct Samples {
@@ -81,23 +79,31 @@ double inverse_logistic(double y) {
   return std::log(inside / (1 - inside));
 }
 
+/// What a fit may use beside a base.
+struct Parts {
+  bool coat = false, anisotropy = false;
+};
+
 /// Numbers within their bounds, of any.
 template <typename T>
-GltfNumbers<T> bounded(const T* x, bool has_coat) {
+GltfNumbers<T> bounded(const T* x, Parts parts) {
+  constexpr double kLeast = kGltfLeastRoughness;
   GltfNumbers<T> p;
   for (int i = 0; i < kGltfReflectanceNumbers; ++i) p[i] = logistic(x[i]);
-  for (int i : {4, 10}) p[i] = kLeastRoughness + (1 - kLeastRoughness) * p[i];
-  if (!has_coat) p[9] = T(0.0);
+  for (int i : {4, 10}) p[i] = kLeast + (1 - kLeast) * p[i];
+  if (!parts.coat) p[9] = T(0.0);
+  if (!parts.anisotropy) p[11] = T(0.0);
+  p[12] = x[12];
   return p;
 }
 
 struct Residuals {
   const Samples* samples;
-  bool has_coat;
+  Parts parts;
   int NumResiduals() const { return 3 * static_cast<int>(kSamples); }
   template <typename T>
   bool operator()(const T* x, T* residuals) const {
-    const GltfNumbers<T> p = bounded(x, has_coat);
+    const GltfNumbers<T> p = bounded(x, parts);
     for (std::size_t i = 0; i < kSamples; ++i) {
       const GltfAngles at(samples->pairs.to_light.get(i), samples->pairs.to_viewer.get(i));
       const std::array<T, 3> radiance = gltf_radiance(p, at);
@@ -140,33 +146,54 @@ struct Start {
 };
 constexpr Start kStarts[] = {{0.05, 0.1, 0.3}, {0.05, 0.25, 0.1}, {0.05, 0.5, 0.05}, {0.9, 0.2, 0.5}, {0.9, 0.5, 0.5}};
 
-GltfNumbers<double> solve(const Samples& samples, const Start& start, bool has_coat) {
+GltfNumbers<double> solve(const Samples& samples, const Start& start, double rotation, Parts parts) {
   const std::array<double, 3> diffuse = diffuse_guess(samples);
   Eigen::Matrix<double, kGltfReflectanceNumbers, 1> x;
   for (int c = 0; c < 3; ++c) x[c] = inverse_logistic(diffuse[c]), x[6 + c] = inverse_logistic(start.reflectance);
   x[3] = inverse_logistic(start.metallic), x[4] = inverse_logistic(start.roughness), x[5] = inverse_logistic(0.8);
   x[9] = inverse_logistic(0.5), x[10] = inverse_logistic(0.5 * start.roughness);
-  const Residuals residuals{&samples, has_coat};
+  x[11] = inverse_logistic(0.5), x[12] = rotation;
+  const Residuals residuals{&samples, parts};
   const Function function(residuals);
   ceres::TinySolver<Function> solver;
   constexpr int kIterations = 150;
   solver.options.max_num_iterations = kIterations;
   solver.Solve(function, &x);
-  return bounded(x.data(), has_coat);
+  return bounded(x.data(), parts);
 }
 
 struct Best {
   GltfNumbers<double> numbers{};
   float error = 0;
 };
-Best best_of_starts(const Samples& seen, bool has_coat) {
+Best best_of_starts(const Samples& seen, Parts parts) {
+  constexpr double kTurn = 0.25 * kPi;  // an eighth of the circle: no start is farther from its solution than half that
   std::optional<Best> best;
-  for (const Start& start : kStarts) {
-    const GltfNumbers<double> p = solve(seen, start, has_coat);
-    const float error = error_of(p, seen);
-    if (!best || error < best->error) best = Best{p, error};
-  }
+  for (const Start& start : kStarts)
+    for (int turn = 0; turn < (parts.anisotropy ? 4 : 1); ++turn) {
+      const GltfNumbers<double> p = solve(seen, start, kTurn * turn, parts);
+      const float error = error_of(p, seen);
+      if (!best || error < best->error) best = Best{p, error};
+    }
   return *best;
+}
+
+/// Whether what is reflected depends on more than the angles between light, viewer and normal.
+bool has_grain(const BoundPatterns& patterns, std::size_t index, const Samples& seen) {
+  Samples turned = seen;
+  for (Planes<3>* directions : {&turned.pairs.to_light, &turned.pairs.to_viewer})
+    for (std::size_t i = 0; i < kSamples; ++i) {
+      const Vec3 d = directions->get(i);
+      directions->set(i, Vec3{-d.y, d.x, d.z});
+    }
+  ask(patterns, index, turned);
+  double sum = 0;
+  for (std::size_t i = 0; i < kSamples; ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double difference = static_cast<double>(turned.radiance[c][i] - seen.radiance[c][i]) * seen.scale;
+      sum += seen.weights[i] * difference * difference;
+    }
+  return std::sqrt(sum) > static_cast<double>(kGoodWithout);
 }
 
 GltfMaterial material_of(const GltfNumbers<double>& p) {
@@ -176,6 +203,9 @@ GltfMaterial material_of(const GltfNumbers<double>& p) {
   material.metallic = number(3), material.roughness = number(4), material.specular = number(5);
   material.specular_color = Rgb{number(6), number(7), number(8)} * (1 / kGltfReflectance);
   material.coat = number(9), material.coat_roughness = p[9] > 0 ? number(10) : 0;
+  material.anisotropy = number(11);
+  // A grain has no direction: half a turn is all.
+  material.anisotropy_rotation = p[11] > 0 ? static_cast<float>(std::remainder(p[12], static_cast<double>(kPi))) : 0;
   return material;
 }
 
@@ -195,29 +225,45 @@ void let_through(Rgb passes, GltfMaterial& material) {
 
 GltfNumbers<double> numbers_of(const GltfMaterial& m) {
   const auto reflectance = [](float colour) { return std::min(1.0, static_cast<double>(kGltfReflectance * colour)); };
+  const auto roughness = [](float r) { return static_cast<double>(std::max(r, kGltfLeastRoughness)); };
   const double through = 1 - static_cast<double>(m.transmission);
   return {static_cast<double>(m.base_color.r) * through,
           static_cast<double>(m.base_color.g) * through,
           static_cast<double>(m.base_color.b) * through,
           static_cast<double>(m.metallic),
-          static_cast<double>(m.roughness),
+          roughness(m.roughness),
           static_cast<double>(m.specular),
           reflectance(m.specular_color.r),
           reflectance(m.specular_color.g),
           reflectance(m.specular_color.b),
           static_cast<double>(m.coat),
-          static_cast<double>(m.coat_roughness)};
+          roughness(m.coat_roughness),
+          static_cast<double>(m.anisotropy),
+          static_cast<double>(m.anisotropy_rotation)};
+}
+
+GltfRoughness roughness_of(const SquaredRoughness<double>& squared) {
+  const double mean = 0.5 * (squared.xx + squared.yy);
+  const double half = std::hypot(0.5 * (squared.xx - squared.yy), squared.xy);
+  const double least = std::sqrt(std::clamp(mean - half, 0.0, 1.0)),
+               most = std::sqrt(std::clamp(mean + half, 0.0, 1.0));
+  const double anisotropy = least < 1 ? std::sqrt((most - least) / (1 - least)) : 0;
+  return {static_cast<float>(std::sqrt(least)), static_cast<float>(anisotropy),
+          static_cast<float>(0.5 * std::atan2(2 * squared.xy, squared.xx - squared.yy))};
 }
 
 MaterialFit fit_material(const BoundPatterns& patterns, std::size_t index) {
   constexpr std::uint64_t kSeen = 1, kHeldOut = 2;  // any two
   Samples seen = draw_samples(kSeen), held_out = draw_samples(kHeldOut);
   ask(patterns, index, seen), ask(patterns, index, held_out);
-  Best best = best_of_starts(seen, false);
-  if (best.error > kGoodWithoutCoat) {
-    const Best coated = best_of_starts(seen, true);
-    if (coated.error < kCoatGain * best.error) best = coated;
-  }
+  Best best = best_of_starts(seen, {});
+  const auto try_with = [&](Parts parts) {
+    if (best.error <= kGoodWithout) return;
+    const Best more = best_of_starts(seen, parts);
+    if (more.error < kGain * best.error) best = more;
+  };
+  if (has_grain(patterns, index, seen)) try_with({.coat = false, .anisotropy = true});
+  try_with({.coat = true, .anisotropy = best.numbers[11] > 0});
   MaterialFit fit{material_of(best.numbers), 0};
   Planes<3> transmittance, emission;
   patterns.transmittance(transmittance), patterns.emission(emission);

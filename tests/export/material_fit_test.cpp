@@ -67,6 +67,21 @@ TEST(MaterialFit, CoatOverRoughPaint_NeedsACoat) {
   EXPECT_GT(fit.material.coat, 0.5f);
 }
 
+TEST(MaterialFit, GrainOfMetal_IsFoundAgain) {
+  GltfMaterial brushed = paint();
+  brushed.metallic = 1, brushed.roughness = 0.3f, brushed.anisotropy = 0.5f, brushed.anisotropy_rotation = 0.7f;
+  const MaterialFit fit = fit_material(KnownPatterns(brushed), 0);
+  EXPECT_LT(fit.error, 5e-3f);
+  EXPECT_NEAR(fit.material.anisotropy, 0.5f, 0.02f);
+  EXPECT_NEAR(fit.material.anisotropy_rotation, 0.7f, 0.02f);
+}
+
+TEST(MaterialFit, MetalWithoutGrain_StaysIsotropic) {
+  GltfMaterial gold = paint();
+  gold.metallic = 1;
+  EXPECT_EQ(fit_material(KnownPatterns(gold), 0).material.anisotropy, 0);
+}
+
 TEST(MaterialFit, LightThatPassesAndLightOfItsOwn_AreTakenOver) {
   GltfMaterial glass = paint();
   glass.emission = {0, 2, 0};
@@ -78,15 +93,35 @@ TEST(MaterialFit, LightThatPassesAndLightOfItsOwn_AreTakenOver) {
   EXPECT_NEAR(fit.material.transmission * all, 0.3f, 1e-3f);
 }
 
-TEST(MaterialFit, LibraryShaderOfPhongLobes_IsNoGltf_AndSaysSo) {
-  const auto shader = make_library_shader("checker");
+/// A shader of the library at one place, whose frame is the axes.
+MaterialFit fit_of_library(const std::string& name) {
+  const auto shader = make_library_shader(name);
   SurfacePoints points;
   points.resize(1);
   for (std::size_t i = 0; i < points.position.stride(); ++i)
     points.position.set(i, Vec3{0.3f, 0.2f, 0.1f}), points.normal.set(i, Vec3{0, 0, 1}),
         points.tangent.set(i, Vec3{1, 0, 0});
-  const MaterialFit fit = fit_material(*shader->bind(points), 0);
-  EXPECT_GT(fit.error, 0.01f);
+  return fit_material(*shader->bind(points), 0);
+}
+
+TEST(MaterialFit, LibraryShaderOfPhongLobes_IsNoGltf_AndSaysSo) { EXPECT_GT(fit_of_library("checker").error, 0.01f); }
+
+// Two implementations of one anisotropic lobe: ours is fitted to that of the library's shaders.
+TEST(MaterialFit, AnisotropicMetalOfTheLibrary_IsGltf) {
+  const MaterialFit fit = fit_of_library("scratched_metal");
+  EXPECT_LT(fit.error, 2e-3f);
+  // .25 across the grooves, along them .08, each the square of glTF's roughness.
+  const GltfMaterial& m = fit.material;
+  const float least = m.roughness * m.roughness, most = least + (1 - least) * m.anisotropy * m.anisotropy;
+  EXPECT_NEAR(least, 0.08f, 1e-3f);
+  EXPECT_NEAR(most, 0.25f, 2e-3f);
+}
+
+TEST(GltfMaterial, SquaredRoughness_IsSaidAndRead) {
+  const GltfRoughness said = roughness_of(squared_roughness(0.4, 0.6, -0.5));
+  EXPECT_NEAR(said.roughness, 0.4f, 1e-5f);
+  EXPECT_NEAR(said.anisotropy, 0.6f, 1e-5f);
+  EXPECT_NEAR(said.rotation, -0.5f, 1e-5f);
 }
 
 // Two implementations of one microfacet lobe: ours for materials of glTF, and that of the library's shaders.
