@@ -14,7 +14,7 @@ list_files() {
   fi
 }
 mapfile -t cpp < <(list_files '*.h' '*.cpp')
-mapfile -t code < <(list_files '*.h' '*.cpp' '*.glsl' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt')
+mapfile -t code < <(list_files '*.h' '*.cpp' '*.glsl' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '*.ts' '*.css' '*.mjs')
 failed=0
 
 echo "style: clang-format on ${#cpp[@]} files"
@@ -22,6 +22,9 @@ clang-format --dry-run -Werror "${cpp[@]}" || failed=1
 
 echo "style: direction of includes"
 python3 scripts/check_includes.py . || failed=1
+
+echo "style: types and format of apps/web"
+scripts/build_web.sh build/web check || failed=1
 
 echo "style: no file over 500 lines, no loose ends"
 for file in "${code[@]}"; do

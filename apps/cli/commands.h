@@ -22,7 +22,6 @@ void add_bench_gpu(CLI::App& bench_app);
 void add_bench_export(CLI::App& bench_app);
 void add_bench_paper(CLI::App& bench_app);
 void add_list_command(CLI::App& app);
-/// Only where there is GLFW.
 void add_view_command(CLI::App& app);
 void add_mesh_command(CLI::App& app);
 void add_unwrap_command(CLI::App& app);

@@ -19,6 +19,7 @@ namespace {
 
 struct Options {
   std::string map, kind, output, scene, device, materials = "one";
+  bool gzip = false;
   CommonOptions common;
 };
 
@@ -74,7 +75,7 @@ void run(const Options& options) {
   if (options.kind == "ktx2") export_ktx2(input, folder);
   if (options.kind == "tx") export_tx(input, folder);
   if (options.kind == "mtlx") export_mtlx(input, folder);
-  if (options.kind == "glsl") export_glsl(input, folder);
+  if (options.kind == "glsl") export_glsl(input, options.gzip ? Compression::kGzip : Compression::kNone, folder);
   stop_if_interrupted();
   folder.commit();
   fmt::print("{}\n", options.output);
@@ -99,6 +100,7 @@ void add_export_command(CLI::App& app) {
   sub->add_option("--materials", options->materials, "gltf: one averaged material, or k of them with masks")
       ->check(CLI::IsMember({"one", "k"}))
       ->capture_default_str();
+  sub->add_flag("--gzip", options->gzip, "glsl: compressed files too, for pages");
   add_device_option(*sub, options->device);
   add_common_options(*sub, options->common);
   sub->callback([options] { run(*options); });

@@ -29,9 +29,7 @@ void add_commands(CLI::App& app) {
   using namespace redmap::cli;
   add_bake_command(app);
   add_render_command(app);
-#ifdef REDMAP_HAS_WINDOW
   add_view_command(app);
-#endif
   add_compare_command(app);
   add_verify_command(app);
   add_inspect_command(app);

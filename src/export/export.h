@@ -35,9 +35,14 @@ void export_tx(const ExportInput& input, ExportFolder& folder);
 /// NAME.mtlx: a MaterialX document that mixes the fitted surfaces by masks. File names keep the UDIM number of `name`
 /// ("body.1001" gives "body.<UDIM>.mask00.png").
 void export_mtlx(const ExportInput& input, ExportFolder& folder);
+enum class Compression {
+  kNone,
+  kGzip  ///< beside each file of numbers the same as .gz, for pages to load
+};
+
 /// redmap.glsl, with a function redmap_shade() that is the whole map for OpenGL 3.3, Vulkan and WebGL2, weights.bin and
-/// words.bin, which it reads, and mesh.bin. Throws Error without a surface, and for shaders that transmit, have images
-/// or are plug-ins.
-void export_glsl(const ExportInput& input, ExportFolder& folder);
+/// words.bin, which it reads, and mesh.bin. The manifest says which parameters may still be changed. Throws Error
+/// without a surface, and for shaders that transmit, have images or are plug-ins.
+void export_glsl(const ExportInput& input, Compression compression, ExportFolder& folder);
 
 }  // namespace redmap

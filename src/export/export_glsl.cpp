@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "export/export.h"
 #include "export/glsl_text.h"
+#include "export/gzip.h"
+#include "export/live_parameters.h"
 #include "export/manifest.h"
 #include "export/mesh_buffers.h"
 #include "gpu/kernel_texts.h"
@@ -92,9 +94,43 @@ std::string include_text(const ExportInput& input, const DeviceShader& shader, c
   return without_lines(text + std::string(kGlslAfter));
 }
 
+/// What is declared of each parameter, its value in the bake, and whether the map holds for others.
+Json parameters_json(const ExportInput& input) {
+  const std::vector<bool> live = live_parameters(*input.map, *input.surface, *input.shader);
+  Json all = Json::array();
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    const ParameterInfo& info = input.shader->info().parameters[i];
+    all.push_back({{"name", info.name},
+                   {"type", info.type},
+                   {"value", input.shader->parameters()[i]},
+                   {"minimum", info.minimum},
+                   {"maximum", info.maximum},
+                   {"unit", info.unit},
+                   {"meaning", info.meaning},
+                   {"live", static_cast<bool>(live[i])}});
+  }
+  return all;
+}
+
+/// Writes a file, and beside it the same compressed where that was asked for; returns its entry in the manifest.
+Json add_file(const std::string& name, std::string_view bytes, Compression compression, ExportFolder& folder) {
+  folder.add(name, bytes);
+  Json entry{{"file", name}};
+  if (compression == Compression::kGzip) {
+    folder.add(name + ".gz", gzip(bytes));
+    entry["gzip"] = name + ".gz";
+  }
+  return entry;
+}
+
+template <typename T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
 }  // namespace
 
-void export_glsl(const ExportInput& input, ExportFolder& folder) {
+void export_glsl(const ExportInput& input, Compression compression, ExportFolder& folder) {
   if (!input.surface) throw Error("export: GLSL needs the surface of the map, found no scene: name it with --scene");
   const ShaderInfo& info = input.shader->info();
   const std::optional<DeviceShader> shader = device_shader(*input.shader);
@@ -106,25 +142,25 @@ void export_glsl(const ExportInput& input, ExportFolder& folder) {
   ObjectTraits traits;
   set_map_traits(*input.map, *input.surface, traits);
   folder.add("redmap.glsl", include_text(input, *shader, traits));
-  const WeightTexels weights = weight_texels(*input.map);
-  folder.add("weights.bin", {reinterpret_cast<const char*>(weights.texels.data()), weights.texels.size()});
-  std::vector<std::uint32_t> words = map_data(*input.map, *input.surface, traits);
-  words.resize((words.size() + kWordsARow - 1) / kWordsARow * kWordsARow);
-  folder.add("words.bin", {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(words[0])});
-  const MeshBuffers mesh = mesh_buffers(*input.surface);
-  folder.add("mesh.bin", mesh_bytes(mesh));
 
   Json manifest = manifest_of(input, "glsl");
-  const Extent extent = input.map->weights.extent(0);
   manifest["include"] = "redmap.glsl";
-  manifest["weights"] = {{"file", "weights.bin"},
-                         {"width", extent.width},
-                         {"height", extent.height},
-                         {"layers", weights.layers},
-                         {"levels", input.map->weights.levels()},
-                         {"wraps_u", input.map->weights.wraps_u()}};
-  manifest["words"] = {{"file", "words.bin"}, {"width", kWordsARow}, {"height", words.size() / kWordsARow}};
-  manifest["mesh"] = {{"file", "mesh.bin"}, {"vertices", mesh.positions.size()}, {"indices", mesh.indices.size()}};
+  const WeightTexels weights = weight_texels(*input.map);
+  const Extent extent = input.map->weights.extent(0);
+  manifest["weights"] = add_file("weights.bin", bytes_of(weights.texels), compression, folder);
+  manifest["weights"].update({{"width", extent.width},
+                              {"height", extent.height},
+                              {"layers", weights.layers},
+                              {"levels", input.map->weights.levels()},
+                              {"wraps_u", input.map->weights.wraps_u()}});
+  std::vector<std::uint32_t> words = map_data(*input.map, *input.surface, traits);
+  words.resize((words.size() + kWordsARow - 1) / kWordsARow * kWordsARow);
+  manifest["words"] = add_file("words.bin", bytes_of(words), compression, folder);
+  manifest["words"].update({{"width", kWordsARow}, {"height", words.size() / kWordsARow}});
+  const MeshBuffers mesh = mesh_buffers(*input.surface);
+  manifest["mesh"] = add_file("mesh.bin", mesh_bytes(mesh), compression, folder);
+  manifest["mesh"].update({{"vertices", mesh.positions.size()}, {"indices", mesh.indices.size()}});
+  manifest["parameters"] = parameters_json(input);
   add_manifest(manifest, folder);
 }
 

@@ -106,6 +106,14 @@ vec3 redmap_shade(RedmapHit hit, vec3 to_light[REDMAP_LIGHTS], vec3 irradiance[R
   return sum + redmap_filtered(hit, axes, 0u) * part;
 }
 
+// The shader itself, which aliases.
+vec3 redmap_shade_original(RedmapHit hit, vec3 to_light[REDMAP_LIGHTS], vec3 irradiance[REDMAP_LIGHTS]) {
+  redmap_lights_to = to_light;
+  redmap_lights_irradiance = irradiance;
+  redmap_picture.z = uint(REDMAP_LIGHTS);
+  return redmap_original(hit);
+}
+
 // Under one light.
 vec3 redmap_shade(RedmapHit hit, vec3 to_light, vec3 irradiance) {
   vec3 all_to[REDMAP_LIGHTS];

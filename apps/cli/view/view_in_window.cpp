@@ -1,4 +1,4 @@
-// redmap view: a scene in a window, rendered on a Vulkan device as the camera moves.
+// `redmap view` in a window: a scene, rendered on a Vulkan device as the camera moves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +10,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/parallel.h"
-#include "commands.h"
 #include "common.h"
 #include "device/device.h"
 #include "gpu/device_renderer.h"
@@ -24,25 +22,13 @@
 #include "view/parameter_editor.h"
 #include "view/rebake.h"
 #include "view/window.h"
+#include "view_options.h"
 
 namespace redmap::cli {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-struct ViewOptions {
-  CommonOptions common;
-  std::string scene, device, keys, screenshot;
-  int frames = 0;
-  std::vector<std::string> overrides;
-};
-
-constexpr const char* kKeys =
-    "1 original, 2 map, 3 supersampled, 4 averaged parameters, 5 the paper's method (on the CPU, slow), 6 split: map "
-    "left, original right. f: one sample a pixel or 2 x 2. b: one basis reflectance a light. r: error against 64 "
-    "samples. p: the panel with a slider a parameter; , and . choose one too, - and = change it; maps are baked again "
-    "while you look. Drag left: orbit, right: look around; wheel: zoom; w a s d q e: fly. Escape: leave.";
 
 /// Degrees a dragged pixel, zoom a step of the wheel, parts of the distance a second.
 constexpr float kDragDegrees = 0.3f, kWheelZoom = 0.9f, kFlySpeed = 0.5f;
@@ -240,23 +226,6 @@ class Viewer {
 
 }  // namespace
 
-void add_view_command(CLI::App& app) {
-  auto options = std::make_shared<ViewOptions>();
-  CLI::App* sub = app.add_subcommand("view", "Show a scene in a window, rendered on a Vulkan device");
-  sub->add_option("scene", options->scene, "Scene file (TOML), baked")->required();
-  sub->add_option("--keys", options->keys, "Keys pressed at the start")->type_name("KEYS");
-  sub->add_option("--frames", options->frames, "Leave after so many frames; 0: when the window is closed")
-      ->check(CLI::Range(0, 1 << 30))
-      ->type_name("N");
-  sub->add_option("--screenshot", options->screenshot, "Where the last frame is left as it stood on the screen");
-  add_override_option(*sub, options->overrides);
-  add_device_option(*sub, options->device);
-  add_common_options(*sub, options->common);
-  sub->footer(std::string("Keys: ") + kKeys + "\nExample: redmap view scenes/sphere_noise.toml --keys 6");
-  sub->callback([options] {
-    const ThreadLimit threads(static_cast<std::size_t>(options->common.threads));
-    Viewer(*options).run();
-  });
-}
+void view_in_window(const ViewOptions& options) { Viewer(options).run(); }
 
 }  // namespace redmap::cli

@@ -1,0 +1,75 @@
+#include "web/page_server.h"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+
+namespace redmap::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kHost = "127.0.0.1";
+
+std::string content_type(const fs::path& file) {
+  static const std::map<std::string, std::string> kTypes{{".html", "text/html; charset=utf-8"},
+                                                         {".js", "application/javascript"},
+                                                         {".css", "text/css"},
+                                                         {".json", "application/json"},
+                                                         {".glsl", "text/plain; charset=utf-8"}};
+  const auto found = kTypes.find(file.extension().string());
+  return found == kTypes.end() ? "application/octet-stream" : found->second;
+}
+
+}  // namespace
+
+struct PageServer::Impl {
+  httplib::Server server;
+  std::map<std::string, fs::path> files;  ///< by the path of their address
+  int port = 0;
+
+  void answer(const httplib::Request& request, httplib::Response& response) const {
+    const auto found = files.find(request.path);
+    if (found == files.end()) {
+      response.status = 404;
+      return;
+    }
+    // Another scene may stand at the same address next time.
+    response.set_header("Cache-Control", "no-store");
+    response.set_content(read_file(found->second), content_type(found->second));
+  }
+};
+
+PageServer::PageServer(const fs::path& folder, int port) : impl_(std::make_unique<Impl>()) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      impl_->files[fmt::format("/{}", entry.path().lexically_relative(folder).generic_string())] = entry.path();
+  impl_->files["/"] = folder / "index.html";
+  httplib::Server& server = impl_->server;
+  server.Get(
+      ".*", [this](const httplib::Request& request, httplib::Response& response) { impl_->answer(request, response); });
+  impl_->port = port == 0 ? server.bind_to_any_port(kHost) : server.bind_to_port(kHost, port) ? port : -1;
+  if (impl_->port < 0) throw Error("view --web: expected port {} of {} to be free, found it in use", port, kHost);
+}
+
+PageServer::~PageServer() = default;
+
+std::string PageServer::url() const { return fmt::format("http://{}:{}/", kHost, impl_->port); }
+
+void PageServer::run(const std::function<bool()>& stop) {
+  std::thread listening([this] { impl_->server.listen_after_bind(); });
+  while (!stop()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  // It does not hear of stop() before it listens.
+  while (!impl_->server.is_running() && listening.joinable()) std::this_thread::yield();
+  impl_->server.stop();
+  listening.join();
+}
+
+}  // namespace redmap::cli
