@@ -89,6 +89,18 @@ RedmapHit redmap_seen(vec3 position, vec3 normal, vec3 tangent, vec2 uv, vec3 to
   return hit;
 }
 
+// The same where it is known that `position` comes to lie at `pixel` of the picture, as gl_FragCoord counts. Devices put
+// vertices on a grid before they interpolate, some on sixteenths of a pixel; what small triangles pass on is then that
+// of a place beside, and their derivatives are off by more.
+RedmapHit redmap_seen(vec3 position, vec3 normal, vec3 tangent, vec2 uv, vec3 to_viewer, uint triangle, vec2 pixel) {
+  vec2 away = inverse(mat2(dFdx(pixel), dFdy(pixel))) * (gl_FragCoord.xy - pixel);
+  if (!(dot(away, away) < 1.0)) away = vec2(0.0);  // a triangle seen from its edge
+  return redmap_seen(position + dFdx(position) * away.x + dFdy(position) * away.y,
+                     normal + dFdx(normal) * away.x + dFdy(normal) * away.y,
+                     tangent + dFdx(tangent) * away.x + dFdy(tangent) * away.y,
+                     uv + dFdx(uv) * away.x + dFdy(uv) * away.y, to_viewer, triangle);
+}
+
 // Radiance towards the viewer under the lights: unit vectors to them, object space, and their irradiance at normal
 // incidence, shadows included. Close up it is the shader itself.
 vec3 redmap_shade(RedmapHit hit, vec3 to_light[REDMAP_LIGHTS], vec3 irradiance[REDMAP_LIGHTS]) {

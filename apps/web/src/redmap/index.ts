@@ -3,4 +3,4 @@ export { RedmapError } from './json_reader.js';
 export type { RedmapManifest, RedmapParameter } from './manifest.js';
 export type { RedmapExport } from './redmap_export.js';
 export { RedmapLoader } from './redmap_loader.js';
-export { RedmapMaterial, type RedmapMaterialOptions, type RedmapMethod } from './redmap_material.js';
+export { RedmapMaterial, type RedmapMethod } from './redmap_material.js';

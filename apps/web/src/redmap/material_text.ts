@@ -31,7 +31,8 @@ const kAfter = `
 in vec3 redmap_three_position, redmap_three_normal, redmap_three_tangent;
 in vec2 redmap_three_uv;
 flat in uint redmap_three_triangle;
-uniform mat4 modelViewMatrix;
+uniform mat4 modelViewMatrix, projectionMatrix;
+uniform vec4 redmap_viewport;
 uniform int redmap_method;
 #if NUM_DIR_LIGHTS > 0
 struct RedmapDirectionalLight { vec3 direction, color; };
@@ -77,8 +78,10 @@ vec3 redmap_three_to_viewer() {
 `;
 
 const kMain = `
+  vec4 clip = projectionMatrix * (modelViewMatrix * vec4(redmap_three_position, 1.0));
+  vec2 pixel = redmap_viewport.xy + (clip.xy / clip.w * 0.5 + 0.5) * redmap_viewport.zw;
   RedmapHit hit = redmap_seen(redmap_three_position, redmap_three_normal, redmap_three_tangent, redmap_three_uv,
-                              redmap_three_to_viewer(), redmap_three_triangle);
+                              redmap_three_to_viewer(), redmap_three_triangle, pixel);
   vec3 to_light[REDMAP_LIGHTS], irradiance[REDMAP_LIGHTS];
   redmap_three_lights(to_light, irradiance);
   vec3 radiance_ = redmap_method == 0 ? redmap_shade(hit, to_light, irradiance)

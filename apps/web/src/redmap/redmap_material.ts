@@ -1,5 +1,5 @@
 // A reduction map as a material of three.js. Takes the directional and point lights of the scene it is in.
-import { DoubleSide, ShaderMaterial, UniformsLib, UniformsUtils } from 'three';
+import { DoubleSide, ShaderMaterial, UniformsLib, UniformsUtils, Vector4 } from 'three';
 import { RedmapError } from './json_reader.js';
 import type { RedmapParameter } from './manifest.js';
 import { fragmentText, kVertexText, uniformOf } from './material_text.js';
@@ -8,19 +8,11 @@ import type { RedmapExport } from './redmap_export.js';
 /** 'map': filtered by the map, and the shader itself close up. 'original': the shader itself, which aliases. */
 export type RedmapMethod = 'map' | 'original';
 
-export interface RedmapMaterialOptions {
-  method?: RedmapMethod;
-  /**
-   * 'device': textures are filtered by the device, in as many bits as it has. 'exact': by the shader, in floats; slower,
-   * for devices that have few (software ones).
-   */
-  filtering?: 'device' | 'exact';
-}
-
 export class RedmapMaterial extends ShaderMaterial {
   readonly exported: RedmapExport;
+  readonly #viewport = new Vector4();
 
-  constructor(exported: RedmapExport, options: RedmapMaterialOptions = {}) {
+  constructor(exported: RedmapExport) {
     const { manifest } = exported;
     super({
       name: `redmap ${manifest.name}`,
@@ -30,13 +22,16 @@ export class RedmapMaterial extends ShaderMaterial {
       lights: true,
       side: DoubleSide,
     });
-    if (options.filtering === 'exact') this.defines['REDMAP_FILTERS'] = 1;
     this.exported = exported;
     this.uniforms['redmap_texels'] = { value: exported.weights };
     this.uniforms['redmap_words'] = { value: exported.words };
     this.uniforms['redmap_method'] = { value: 0 };
+    this.uniforms['redmap_viewport'] = { value: this.#viewport };
     for (const parameter of manifest.parameters) this.setParameter(parameter.name, parameter.value);
-    this.method = options.method ?? 'map';
+    this.onBeforeRender = renderer => {
+      renderer.getCurrentViewport(this.#viewport);
+      this.uniformsNeedUpdate = true;
+    };
   }
 
   get method(): RedmapMethod {
