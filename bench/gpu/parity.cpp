@@ -76,7 +76,7 @@ ParityRow compare_at(const Scene& scene, Renderer& on_cpu, DeviceRenderer& on_de
 std::vector<std::string> device_shaders() {
   std::vector<std::string> names;
   for (const std::string& name : library_shader_names())
-    if (!library_shader_info(name).transmits && !library_shader_info(name).turns_tangents) names.push_back(name);
+    if (!library_shader_info(name).transmits) names.push_back(name);
   return names;
 }
 

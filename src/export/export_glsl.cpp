@@ -17,6 +17,7 @@
 #include "gpu/kernel_texts.h"
 #include "gpu/limits_text.h"
 #include "gpu/map_memory.h"
+#include "gpu/object_text.h"
 #include "user_shader/device_shader.h"
 
 namespace redmap {
@@ -51,14 +52,7 @@ std::string parameters_text(const Shader& shader) {
 std::string constants_text(const ExportInput& input, const ObjectTraits& traits) {
   ObjectBlock block;
   set_map_block(*input.map, block);
-  std::string text = fmt::format(
-      "#define REDMAP_BASIS {0}\n#define REDMAP_CHANNELS {0}\n#define REDMAP_HAS_COVERAGE {1}\n#define REDMAP_WRAPS "
-      "{2}\n"
-      "#define REDMAP_WIDTHS {3}\n#define REDMAP_LEAVES {4}\n",
-      traits.basis, traits.has_coverage ? 1 : 0, traits.wraps_u ? 1 : 0, traits.widths, traits.leaves);
-  if (traits.hides_frames) text += "#define REDMAP_HIDES_FRAMES\n";
-  if (traits.mends_seams) text += "#define REDMAP_MENDS\n";
-  if (traits.draws_normals) text += "#define REDMAP_DRAWS_NORMALS\n";
+  std::string text = trait_definitions(traits);
   text += fmt::format("const vec4 redmap_map = {};\n", vec4_text(block.map));
   std::vector<std::string> scales;
   for (const Vec4& scale : block.scales) scales.push_back(vec4_text(scale));
@@ -85,9 +79,7 @@ std::string include_text(const ExportInput& input, const DeviceShader& shader, c
                                  input.name, info.name);
   text += std::string(kGlslBefore) + limits_text() + constants_text(input, traits) + shader_text_head(info);
   text += kernel_texts({"hit_type", "footprint", "place", "lookup", "lobes"});
-  if (traits.has_normals) text += kernel_text("normals");
-  if (traits.leaves > 0) text += kernel_text("clusters");
-  if (traits.mends_seams) text += kernel_text("seams");
+  text += map_parts_text(traits);
   text += shader_text_body(shader.sources, info, 0);
   text += parameters_text(*input.shader) + std::string(kGlslPatterns) + kernel_texts({"bind", "shade"});
   text += kernel_texts({"shade_map", "shade_spread", traits.has_normals ? "shade_normals" : "shade_turning"});
@@ -137,8 +129,6 @@ void export_glsl(const ExportInput& input, Compression compression, ExportFolder
   if (!shader) throw Error("export: expected a shader in GLSL, found the plug-in '{}'", info.name);
   if (info.transmits || !info.images.empty())
     throw Error("export: expected an opaque shader without images for GLSL, found '{}'", info.name);
-  if (!input.map->tangents.empty())
-    throw Error("export: expected a map without turning grains for GLSL, found one of '{}'", info.name);
   ObjectTraits traits;
   set_map_traits(*input.map, *input.surface, traits);
   folder.add("redmap.glsl", include_text(input, *shader, traits));

@@ -225,8 +225,6 @@ DeviceRenderer::DeviceRenderer(std::shared_ptr<Device> device, const Scene& scen
     }
     if (options.method != Method::kMap) continue;
     require_map(object, found);
-    if (!found.map->tangents.empty())
-      throw Error("object '{}': expected a map without turning grains: render it without --device", object.name);
     if (found.map->verdict == MapVerdict::kDoesNotReduce)
       side = kFallbackSide;
     else

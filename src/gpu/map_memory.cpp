@@ -64,14 +64,15 @@ void append_model(const LobeModel& model, int widths, Words& words) {
 }
 
 /// Where each level starts, in bytes, for sixteen of them; then the bytes, four to a word.
-void append_normals(const NormalPyramid& normals, Words& words) {
+template <typename Rows>
+void append_levels(const Rows& pyramid, Words& words) {
   constexpr int kLevels = 16;
   std::vector<std::uint8_t> bytes;
   Words starts(kLevels, 0);
-  for (int level = 0; level < normals.levels(); ++level) {
+  for (int level = 0; level < pyramid.levels(); ++level) {
     starts[level] = static_cast<std::uint32_t>(bytes.size());
-    for (int y = 0; y < normals.extent(level).height; ++y) {
-      const auto row = normals.row(level, y);
+    for (int y = 0; y < pyramid.extent(level).height; ++y) {
+      const auto row = pyramid.row(level, y);
       bytes.insert(bytes.end(), row.begin(), row.end());
     }
   }
@@ -80,6 +81,12 @@ void append_normals(const NormalPyramid& normals, Words& words) {
   const std::size_t first = words.size();
   words.resize(first + bytes.size() / 4);
   std::memcpy(&words[first], bytes.data(), bytes.size());
+}
+
+/// The scales of both moments; then levels as those of normals.
+void append_grains(const WeightPyramid& grains, Words& words) {
+  for (const float scale : grains.scales()) append(scale, words);
+  append_levels(grains, words);
 }
 
 /// From the root on; nodes above the leaves are joined as the CPU joins them.
@@ -100,6 +107,7 @@ void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTrait
   traits.wraps_u = map.weights.wraps_u();
   traits.has_normals = !map.normals.empty();
   traits.hides_frames = map.hides_frames;
+  traits.has_grains = !map.tangents.empty();
   // Under mixtures of normals the CPU asks the atlas alone (render/map_shading.cpp).
   traits.leaves = map.normals.empty() ? map.clusters.leaves() : 0;
   const Seams* seams = surface.seams();
@@ -113,8 +121,8 @@ void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTrait
 
 void set_map_block(const ReductionMap& map, ObjectBlock& block) {
   const Extent extent = map.weights.extent(0);
-  // With normals one kernel does it all.
-  const float least = map.normals.empty() ? least_spread(map) : 1e30f;
+  // With normals one kernel does it all; a grain is drawn wherever it is.
+  const float least = !map.normals.empty() ? 1e30f : !map.tangents.empty() ? -1.0f : least_spread(map);
   block.numbers.z = static_cast<std::uint32_t>(map.basis.size());
   block.map = {static_cast<float>(extent.width), static_cast<float>(extent.height),
                static_cast<float>(map.weights.levels()), least};
@@ -164,11 +172,17 @@ std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surf
   }
   for (std::size_t b = 0; b < map.basis.size(); ++b) append_model(model_of(map, b), traits.widths, words);
   for (const Vec2 point : gaussian_points()) append(point.x, words), append(point.y, words);
-  if (traits.has_normals) append_normals(map.normals, words);
+  const std::size_t grains = words.size();
+  if (traits.has_grains) append(0.0f, words);
+  if (traits.has_normals) append_levels(map.normals, words);
   if (traits.leaves > 0) append_clusters(map.clusters, words);
   if (traits.mends_seams) {
     const Words seams = seam_data(surface);
     words.insert(words.end(), seams.begin(), seams.end());
+  }
+  if (traits.has_grains) {
+    words[grains] = static_cast<std::uint32_t>(words.size());
+    append_grains(map.tangents, words);
   }
   return words;
 }

@@ -14,18 +14,9 @@ std::string head(SurfaceKind surface) {
   return fmt::format("#version 450\n#define REDMAP_SURFACE {}\n", static_cast<int>(surface)) + limits_text();
 }
 
-std::string definitions(const ShaderInfo& info, const ObjectTraits& traits) {
-  std::string lines = fmt::format("#define REDMAP_BASIS {}\n#define REDMAP_HAS_COVERAGE {}\n", traits.basis,
-                                  traits.has_coverage ? 1 : 0);
-  lines += fmt::format("#define REDMAP_CHANNELS {}\n#define REDMAP_SLOPES {}\n", traits.channels, traits.first_slope);
-  lines += fmt::format("#define REDMAP_WRAPS {}\n#define REDMAP_WIDTHS {}\n", traits.wraps_u ? 1 : 0, traits.widths);
-  lines += fmt::format("#define REDMAP_LEAVES {}\n", traits.leaves);
-  if (traits.mends_seams) lines += "#define REDMAP_MENDS\n";
-  if (traits.hides_frames) lines += "#define REDMAP_HIDES_FRAMES\n";
-  if (traits.shadows) lines += "#define REDMAP_SHADOWS\n";
-  if (traits.draws_normals) lines += "#define REDMAP_DRAWS_NORMALS\n";
-  if (!info.file.empty()) lines += "#define REDMAP_GUARDED\n";
-  return lines + fmt::format("const uint redmap_most_rounds = {}u;\n", kMostRounds);
+std::string guard_text(const ShaderInfo& info) {
+  return fmt::format("{}const uint redmap_most_rounds = {}u;\n", info.file.empty() ? "" : "#define REDMAP_GUARDED\n",
+                     kMostRounds);
 }
 
 }  // namespace
@@ -43,6 +34,32 @@ std::string sort_text(SurfaceKind surface) {
 std::string group_text() { return "#version 450\n" + kernel_texts({"frame", "group"}); }
 std::string resolve_text() { return "#version 450\n" + kernel_texts({"frame", "resolve"}); }
 
+std::string trait_definitions(const ObjectTraits& traits) {
+  const std::pair<const char*, std::size_t> numbers[] = {
+      {"BASIS", traits.basis},       {"CHANNELS", traits.channels}, {"HAS_COVERAGE", traits.has_coverage},
+      {"WRAPS", traits.wraps_u},     {"WIDTHS", traits.widths},     {"LEAVES", traits.leaves},
+      {"GRAINS", traits.has_grains}, {"SLOPES", traits.first_slope}};
+  const std::pair<const char*, bool> flags[] = {{"MENDS", traits.mends_seams},
+                                                {"HIDES_FRAMES", traits.hides_frames},
+                                                {"SHADOWS", traits.shadows},
+                                                {"DRAWS_NORMALS", traits.draws_normals}};
+  std::string lines;
+  for (const auto& [name, number] : numbers) lines += fmt::format("#define REDMAP_{} {}\n", name, number);
+  for (const auto& [name, is_set] : flags)
+    if (is_set) lines += fmt::format("#define REDMAP_{}\n", name);
+  return lines;
+}
+
+std::string map_parts_text(const ObjectTraits& traits) {
+  std::string text;
+  if (traits.has_normals || traits.has_grains) text += kernel_text("gather");
+  if (traits.has_normals) text += kernel_text("normals");
+  if (traits.has_grains) text += kernel_text("grains");
+  if (traits.leaves > 0) text += kernel_text("clusters");
+  if (traits.mends_seams) text += kernel_text("seams");
+  return text;
+}
+
 ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, const ObjectTraits& traits) {
   ShaderSources all{"", shader.sources.names};
   all.names.push_back(shader.sources.names.front() + ", as redmap renders it");
@@ -53,16 +70,14 @@ ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, con
   if (traits.channels > 0) before += kernel_text("lookup");
   if (traits.basis > 0) {
     before += kernel_text("lobes");
-    if (traits.has_normals) before += kernel_text("normals");
-    if (traits.leaves > 0) before += kernel_text("clusters");
-    if (traits.mends_seams) before += kernel_text("seams");
+    before += map_parts_text(traits);
     after += kernel_texts({"shade_map", "shade_spread", traits.has_normals ? "shade_normals" : "shade_turning"});
   } else if (traits.channels > 0) {
     after += library_include_text("include/widened.glsl") + std::string(kernel_text("shade_parameters"));
   }
   after += kernel_text("shade_main");
-  all.text = head(traits.surface) + ours + shader_text_head(info) + definitions(info, traits) + before +
-             shader_text_body(shader.sources, info, kObjectBindings) + ours + after;
+  all.text = head(traits.surface) + ours + shader_text_head(info) + trait_definitions(traits) + guard_text(info) +
+             before + shader_text_body(shader.sources, info, kObjectBindings) + ours + after;
   return all;
 }
 

@@ -22,6 +22,7 @@ struct ObjectTraits {
   bool wraps_u = false;
   bool has_normals = false;    ///< the map holds normals
   bool hides_frames = false;   ///< the basis is asked in frames that the shader hides
+  bool has_grains = false;     ///< the map holds turns of tangents
   bool draws_normals = false;  ///< no lobe model fits some basis reflectance
   int widths = 1;              ///< most Gaussians of a lobe model
   std::size_t leaves = 0;      ///< of the map's clusters, where they are used
@@ -36,6 +37,11 @@ std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind);
 std::string sort_text(SurfaceKind surface);
 std::string group_text();
 std::string resolve_text();
+
+/// `#define REDMAP_...`, which the kernels ask for.
+std::string trait_definitions(const ObjectTraits& traits);
+/// What a map may hold beside weights and lobe models: normals, grains, clusters, seams. It follows "lobes".
+std::string map_parts_text(const ObjectTraits& traits);
 
 /// Of shaders of the user's own every loop asks `kShadeLoopGuard` before each round.
 inline constexpr const char* kShadeLoopGuard = "redmap_goes_on";

@@ -20,5 +20,7 @@ inline constexpr float kCorrectedUpTo = 0.08f, kCalibratedFrom = 0.12f;
 inline constexpr float kSpreadBegin = 0.07f, kSpreadEnd = 0.12f;
 /// Normals that are drawn lie within this of the frame's z axis, as a sine.
 inline constexpr float kSteepest = 0.98f;
+/// Spreads, in radians, of turns of a grain and of normals that one of each stands for.
+inline constexpr float kOneDrawnTurn = 0.03f, kOneDrawnNormal = 0.003f;
 
 }  // namespace redmap

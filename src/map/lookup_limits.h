@@ -41,6 +41,12 @@ inline constexpr float kGatherBlendFrom = 0.6f;
 /// Texels across a footprint whose normals are gathered, at least: measured, docs/normals.md.
 inline constexpr float kGatheredTexels = 2;
 
+/// Texels whose grains are gathered: within one there are two turns at most.
+inline constexpr float kGatheredGrainTexels = 4;
+/// Length of the mean of twice the angle from which on a texel has one turn: less than 10 degrees apart, which bytes do
+/// not tell from nothing.
+inline constexpr float kOneTurn = 0.985f;
+
 /// Coverage from which nothing is mended at seams: a twentieth that is missing moves the mean by a fortieth of the
 /// footprint, and mending less of it gains nothing.
 inline constexpr float kWholeCoverage = 0.95f;

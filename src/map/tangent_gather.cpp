@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "map/footprint_texels.h"
+#include "map/lookup_limits.h"
 #include "map/tangent_moments.h"
 
 namespace redmap {
 namespace {
-
-/// Texels across a footprint, at least: within one there are two turns at most.
-constexpr float kTexelsAcross = 4;
 
 struct WeightedTurn {
   float angle, weight;
@@ -80,7 +78,7 @@ void gather_turns(const WeightPyramid& tangents, std::span<const Footprint> foot
   for (std::size_t i = 0; i < footprints.size(); ++i) {
     turns.clear();
     if (is_finite(footprints[i])) {
-      const GatherPlan plan = plan_gather(footprints[i], tangents.extent(0), tangents.levels(), kTexelsAcross);
+      const GatherPlan plan = plan_gather(footprints[i], tangents.extent(0), tangents.levels(), kGatheredGrainTexels);
       if (plan.coarse_part < 1) gather_level(tangents, plan.level, plan.footprint, 1 - plan.coarse_part, turns);
       if (plan.coarse_part > 0) gather_level(tangents, plan.level + 1, plan.footprint, plan.coarse_part, turns);
     }

@@ -13,8 +13,6 @@ namespace redmap {
 namespace {
 
 static_assert(kDrawnNormals == kGatheredTurns, "each with a turn of the grain");
-/// Spreads, in radians, of turns and of normals that one of each stands for.
-constexpr float kOneTurn = 0.03f, kOneNormal = 0.003f;
 
 /// A point of distribution `k`, at `unit` of a Gaussian of variance 1.
 Vec3 normal_at(const NormalMixtures& m, std::size_t k, Vec2 unit) {
@@ -54,7 +52,8 @@ bool is_narrow(const NormalMixtures& m, std::uint32_t hit) {
   const std::uint32_t first = m.first[hit];
   if (m.turns.empty() || m.first[hit + 1] != first + 1) return false;
   const Vec2 a = m.turns[hit].front(), b = m.turns[hit].back();
-  return std::abs(a.x * b.y - a.y * b.x) < kOneTurn && m.xx[first] + m.yy[first] < kOneNormal * kOneNormal;
+  return std::abs(a.x * b.y - a.y * b.x) < kOneDrawnTurn &&
+         m.xx[first] + m.yy[first] < kOneDrawnNormal * kOneDrawnNormal;
 }
 
 }  // namespace

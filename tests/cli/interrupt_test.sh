@@ -18,6 +18,8 @@ failures=0
 for signal in INT TERM; do
   "$redmap" bake "$folder/long.toml" >"$folder/stdout" 2>"$folder/stderr" &
   bake=$!
+  # What a shell starts in the background ignores SIGINT until it asks for it, which takes a while on a busy machine.
+  until [ $((0x$(sed -n 's/^SigCgt:\s*//p' /proc/$bake/status) & 2)) -ne 0 ]; do sleep 0.1; done
   sleep 1
   kill -$signal $bake
   wait $bake

@@ -1,6 +1,6 @@
 // Far away the surface is looked up instead of its atlas: the tree of map/surface_clusters.cpp, a node at a time. It
 // follows the drawn normals in the data, from its root on: position, normal, radius, variance, weights.
-const uint redmap_clusters_first = redmap_drawn_first + 2u * uint(redmap_drawn_normals);
+const uint redmap_clusters_first = redmap_rest_first;
 const uint redmap_cluster_floats = 8u + uint(REDMAP_BASIS);
 
 // The part that clusters have in a lookup.

@@ -3,6 +3,8 @@
 const uint redmap_angle_floats = 7u + 3u * uint(REDMAP_WIDTHS);
 const uint redmap_model_floats = 4u + uint(REDMAP_WIDTHS) + 9u * redmap_angle_floats;
 const uint redmap_drawn_first = uint(REDMAP_BASIS) * (redmap_place_floats + redmap_model_floats);
+// What else the map has: normals or clusters and seams, after the word that says where grains start.
+const uint redmap_rest_first = redmap_drawn_first + 2u * uint(redmap_drawn_normals) + uint(REDMAP_GRAINS);
 
 // The record of a basis reflectance: narrowest highlight, whether it is to be trusted, how many widths, how bright it
 // gets; the widths.

@@ -1,6 +1,6 @@
-// The distributions of normals under a footprint: map/normal_gather.cpp, a texel at a time. Their bytes follow the lobe
-// models in the data, after the byte at which each level starts.
-const uint redmap_normals_first = redmap_drawn_first + 2u * uint(redmap_drawn_normals);
+// The distributions of normals under a footprint: map/normal_gather.cpp, a texel at a time. Their bytes follow the drawn
+// normals in the data, after the byte at which each level starts.
+const uint redmap_normals_first = redmap_rest_first;
 const uint redmap_normal_levels = 16u;
 
 uint redmap_byte(uint at) {
@@ -21,50 +21,12 @@ RedmapNormals redmap_unpack(uint at) {
   return RedmapNormals((mean - 2048.0) / 2047.0, vec3(half_sum + along, half_difference * sin(twice), half_sum - along));
 }
 
-// What is gathered on one level: texels [from, to], and how footprint coordinates come from them.
-struct RedmapPatch {
-  ivec2 from, to, extent;
-  vec2 centre, to_a, to_b;
-  float half_a, half_b;
-  uint level;
-};
-RedmapPatch redmap_patch(uint level, vec2 uv, vec2 duv_dx, vec2 duv_dy) {
-  RedmapPatch patch_;
-  patch_.level = level;
-  patch_.extent = max(ivec2(redmap_map.xy) >> int(level), ivec2(1));
-  vec2 size = vec2(patch_.extent), dx = duv_dx * size, dy = duv_dy * size;
-  float determinant = dx.x * dy.y - dx.y * dy.x;
-  patch_.to_a = vec2(dy.y, -dy.x) / determinant;
-  patch_.to_b = vec2(-dx.y, dx.x) / determinant;
-  patch_.half_a = 0.5 * (abs(patch_.to_a.x) + abs(patch_.to_a.y));
-  patch_.half_b = 0.5 * (abs(patch_.to_b.x) + abs(patch_.to_b.y));
-  patch_.centre = uv * size;
-  vec2 reach = 0.5 * (abs(dx) + abs(dy)) + 0.5;
-  // Beyond the edge on either side lies a texel that is not there, or a turn of those that are.
-  ivec2 low = ivec2(REDMAP_WRAPS != 0 ? -patch_.extent.x : -1, -1);
-  ivec2 high = ivec2(REDMAP_WRAPS != 0 ? 2 * patch_.extent.x : patch_.extent.x, patch_.extent.y);
-  patch_.from = ivec2(clamp(floor(patch_.centre - reach), vec2(low), vec2(high)));
-  patch_.to = ivec2(clamp(floor(patch_.centre + reach), vec2(low), vec2(high)));
-  patch_.from.y = max(patch_.from.y, 0);
-  patch_.to.y = min(patch_.to.y, patch_.extent.y - 1);
-  if (REDMAP_WRAPS != 0) {
-    patch_.to.x = min(patch_.to.x, patch_.from.x + patch_.extent.x - 1);
-  } else {
-    patch_.from.x = max(patch_.from.x, 0);
-    patch_.to.x = min(patch_.to.x, patch_.extent.x - 1);
-  }
-  return patch_;
-}
-
-float redmap_overlap(float a, float reach) { return max(min(a + reach, 0.5) - max(a - reach, -0.5), 0.0); }
-
 // Of the texel at `place`: its column on the level, how much of it is under the footprint, and its channels.
 float redmap_area(RedmapPatch patch_, ivec2 place, out int column, out RedmapTexel texel) {
-  vec2 offset = vec2(place) + 0.5 - patch_.centre;
-  column = REDMAP_WRAPS != 0 ? ((place.x % patch_.extent.x) + patch_.extent.x) % patch_.extent.x : place.x;
+  column = redmap_column(patch_, place.x);
   for (int i = 0; i < redmap_layers; i++)
     texel.channels[i] = texelFetch(redmap_texels, ivec3(column, place.y, i), int(patch_.level));
-  return redmap_overlap(dot(patch_.to_a, offset), patch_.half_a) * redmap_overlap(dot(patch_.to_b, offset), patch_.half_b);
+  return redmap_overlap(patch_, place);
 }
 // Where the distributions of a texel are; each of those beyond the base has a share and weights of its own.
 uint redmap_normals_at(RedmapPatch patch_, int column, int row) {
@@ -132,30 +94,17 @@ float redmap_covered(RedmapPatch patch_) {
   return total;
 }
 
-// The levels under a footprint and the parts that they have: x of the finer, y of the coarser; nil where nothing is
-// covered.
+// The distributions under a footprint, and the parts of both levels; nil where nothing is covered.
 struct RedmapGather {
   RedmapPatch fine, coarse;
   vec2 part;
 };
 RedmapGather redmap_gather(RedmapHit hit, RedmapAxes axes) {
-  float width = max(max(axes.minor, axes.major / redmap_gather_anisotropy), redmap_gather_least_width);
-  vec2 dx = hit.duv_dx, dy = hit.duv_dy;
-  if (width > axes.minor) {
-    vec2 along = axes.major_uv * redmap_map.xy;
-    along = dot(along, along) > 0.0 ? normalize(along) : vec2(1.0, 0.0);
-    dx = along * max(axes.major, width) / redmap_map.xy;
-    dy = vec2(-along.y, along.x) * width / redmap_map.xy;
-  }
-  float position = clamp(log2(max(width / redmap_gathered_texels, 1.0)), 0.0, redmap_map.z - 1.0);
-  float level = min(floor(position), max(redmap_map.z - 2.0, 0.0));
-  float coarse = clamp((position - level - redmap_gather_blend_from) / (1.0 - redmap_gather_blend_from), 0.0, 1.0);
-  RedmapGather gather;
-  gather.fine = redmap_patch(uint(level), hit.uv, dx, dy);
-  gather.coarse = redmap_patch(min(uint(level) + 1u, uint(redmap_map.z) - 1u), hit.uv, dx, dy);
-  float fine_area = coarse < 1.0 ? redmap_covered(gather.fine) : 0.0;
-  float coarse_area = coarse > 0.0 ? redmap_covered(gather.coarse) : 0.0;
-  gather.part = vec2(fine_area > 0.0 ? (1.0 - coarse) / fine_area : 0.0,
-                     coarse_area > 0.0 ? (fine_area > 0.0 ? coarse : 1.0) / coarse_area : 0.0);
-  return gather;
+  RedmapGatherPlan plan = redmap_gather_plan(hit, axes, redmap_gathered_texels);
+  float coarse = plan.coarse_part;
+  float fine_area = coarse < 1.0 ? redmap_covered(plan.fine) : 0.0;
+  float coarse_area = coarse > 0.0 ? redmap_covered(plan.coarse) : 0.0;
+  return RedmapGather(plan.fine, plan.coarse,
+                      vec2(fine_area > 0.0 ? (1.0 - coarse) / fine_area : 0.0,
+                           coarse_area > 0.0 ? (fine_area > 0.0 ? coarse : 1.0) / coarse_area : 0.0));
 }

@@ -4,7 +4,7 @@
 #if REDMAP_LEAVES > 0
 const uint redmap_seams_first = redmap_clusters_first + (2u * uint(REDMAP_LEAVES) - 1u) * redmap_cluster_floats;
 #else
-const uint redmap_seams_first = redmap_drawn_first + 2u * uint(redmap_drawn_normals);
+const uint redmap_seams_first = redmap_rest_first;
 #endif
 const uint redmap_edge_words = 13u;
 uint redmap_grid_cells() { return redmap_word(redmap_seams_first); }

@@ -106,6 +106,9 @@ vec3 redmap_over_normals(RedmapGather redmap_g, float redmap_w, inout RedmapQues
 vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sample) {
   float redmap_w[REDMAP_BASIS] = redmap_look_up(redmap_hit_.uv, redmap_a);
   RedmapGather redmap_g = redmap_gather(redmap_hit_, redmap_a);
+#if REDMAP_GRAINS
+  redmap_gather_turns(redmap_hit_, redmap_a);
+#endif
   vec3 redmap_sum = redmap_emission(redmap_w);
   RedmapQuestion redmap_q;
   redmap_q.turned = redmap_hit_.turned;

@@ -28,10 +28,15 @@ vec3 redmap_modelled(uint redmap_b, RedmapLobes redmap_lobes, RedmapHalf redmap_
   return redmap_p <= 0.0 ? redmap_a : redmap_p >= 1.0 ? redmap_c : mix(redmap_a, redmap_c, redmap_p);
 }
 
-// At a normal drawn from a distribution.
+// At a normal drawn from a distribution, the grain along one of its turns. Turns and normals are paired so that neither
+// follows the other.
 vec3 redmap_at_drawn(uint redmap_b, RedmapNormals redmap_d, int redmap_i, vec3 redmap_l, vec3 redmap_v) {
   vec3 redmap_n = redmap_drawn_normal(redmap_d, redmap_i);
+#if REDMAP_GRAINS
+  vec3 redmap_x = redmap_perpendicular(redmap_n, vec3(redmap_turns[redmap_i * 11 % redmap_drawn_normals], 0.0));
+#else
   vec3 redmap_x = redmap_perpendicular(redmap_n, vec3(1.0, 0.0, 0.0));
+#endif
   return redmap_of_basis(redmap_b, redmap_in_frame(redmap_l, redmap_n, redmap_x),
                          redmap_in_frame(redmap_v, redmap_n, redmap_x));
 }

@@ -1,4 +1,18 @@
 // The surface alone turns: one distribution a sample, around the interpolated normal.
+#if REDMAP_GRAINS
+vec3 redmap_grained(uint redmap_b, RedmapNormals redmap_d, vec3 redmap_l, vec3 redmap_v) {
+  if (redmap_is_narrow(redmap_d)) {
+    redmap_d.covariance = vec3(0.0);
+    redmap_turns[0] = redmap_turns[redmap_drawn_normals / 2];
+    return redmap_at_drawn(redmap_b, redmap_d, 0, redmap_l, redmap_v);
+  }
+  vec3 redmap_sum = vec3(0.0);
+  for (int redmap_i = 0; redmap_i < redmap_drawn_normals; redmap_i++)
+    redmap_sum += redmap_at_drawn(redmap_b, redmap_d, redmap_i, redmap_l, redmap_v);
+  return redmap_sum / float(redmap_drawn_normals);
+}
+#endif
+
 vec3 redmap_one_spread(uint redmap_b, RedmapNormals redmap_d, float redmap_w, vec3 redmap_l, vec3 redmap_v) {
   vec3 redmap_mean = redmap_w * redmap_of_basis(redmap_b, redmap_l, redmap_v);
   uint redmap_m = redmap_model(redmap_b);
@@ -6,8 +20,12 @@ vec3 redmap_one_spread(uint redmap_b, RedmapNormals redmap_d, float redmap_w, ve
   float redmap_begin = redmap_spread_begin * redmap_spread_begin * redmap_narrow;
   float redmap_end = redmap_spread_end * redmap_spread_end * redmap_narrow;
   float redmap_variance = redmap_d.covariance.x + redmap_d.covariance.z;
-  if (redmap_variance <= redmap_begin || redmap_w <= 0.0) return redmap_mean;
   bool redmap_trusted = redmap_number(redmap_m + 1u) > 0.5;
+#if REDMAP_GRAINS
+  // A grain has to be drawn wherever it is.
+  if (!redmap_trusted) return redmap_w > 0.0 ? redmap_w * redmap_grained(redmap_b, redmap_d, redmap_l, redmap_v) : vec3(0.0);
+#endif
+  if (redmap_variance <= redmap_begin || redmap_w <= 0.0) return redmap_mean;
   vec3 redmap_value = vec3(0.0);
 #ifdef REDMAP_DRAWS_NORMALS
   int redmap_count = redmap_trusted ? 0 : redmap_drawn_normals;
@@ -94,6 +112,10 @@ vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sam
 #endif
 #if REDMAP_LEAVES > 0
   redmap_blend_clusters(redmap_hit_, redmap_a, redmap_w);
+#endif
+#if REDMAP_GRAINS
+  redmap_gather_turns(redmap_hit_, redmap_a);
+  return redmap_spread_out(redmap_hit_, redmap_w);
 #endif
   if (redmap_draws != 0u) return redmap_drawn(redmap_hit_, redmap_w, redmap_sample);
   if (redmap_stage == redmap_spread_stage) return redmap_spread_out(redmap_hit_, redmap_w);
