@@ -134,6 +134,7 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, const Obj
     if (stage != ShadeStage::kNear && traits_.channels == 0) continue;
     if (stage == ShadeStage::kBind && traits_.basis == 0) continue;
     if (stage == ShadeStage::kSpread && (traits_.basis == 0 || traits_.has_normals)) continue;
+    if (stage == ShadeStage::kFar && traits_.has_grains && !traits_.has_normals) continue;  // drawn wherever they are
     shade_[static_cast<int>(stage)] = &cache.shade(text, !info.file.empty(), inputs, stage);
   }
   parameters_ = LocalBuffer(*device_, std::span<const std::byte>(shader.parameters));

@@ -63,16 +63,16 @@ void append_model(const LobeModel& model, int widths, Words& words) {
   }
 }
 
-/// Where each level starts, in bytes, for sixteen of them; then the bytes, four to a word.
-template <typename Rows>
-void append_levels(const Rows& pyramid, Words& words) {
-  constexpr int kLevels = 16;
+constexpr int kMostLevels = 16;
+
+/// Where each level starts, in bytes; then the bytes, four to a word.
+void append_normals(const NormalPyramid& normals, Words& words) {
   std::vector<std::uint8_t> bytes;
-  Words starts(kLevels, 0);
-  for (int level = 0; level < pyramid.levels(); ++level) {
+  Words starts(kMostLevels, 0);
+  for (int level = 0; level < normals.levels(); ++level) {
     starts[level] = static_cast<std::uint32_t>(bytes.size());
-    for (int y = 0; y < pyramid.extent(level).height; ++y) {
-      const auto row = pyramid.row(level, y);
+    for (int y = 0; y < normals.extent(level).height; ++y) {
+      const auto row = normals.row(level, y);
       bytes.insert(bytes.end(), row.begin(), row.end());
     }
   }
@@ -83,10 +83,20 @@ void append_levels(const Rows& pyramid, Words& words) {
   std::memcpy(&words[first], bytes.data(), bytes.size());
 }
 
-/// The scales of both moments; then levels as those of normals.
+/// The scales of both moments; where each level starts, in words; then a word a texel: coverage and both moments.
 void append_grains(const WeightPyramid& grains, Words& words) {
   for (const float scale : grains.scales()) append(scale, words);
-  append_levels(grains, words);
+  const std::size_t starts = words.size();
+  words.resize(starts + kMostLevels, 0);
+  const std::size_t first = words.size();
+  for (int level = 0; level < grains.levels(); ++level) {
+    words[starts + level] = static_cast<std::uint32_t>(words.size() - first);
+    for (int y = 0; y < grains.extent(level).height; ++y) {
+      const std::uint8_t* texel = grains.row(level, y).data();
+      for (int x = 0; x < grains.extent(level).width; ++x, texel += grains.texel_stride())
+        words.push_back(texel[0] | texel[1] << 8 | texel[2] << 16);
+    }
+  }
 }
 
 /// From the root on; nodes above the leaves are joined as the CPU joins them.
@@ -174,7 +184,7 @@ std::vector<std::uint32_t> map_data(const ReductionMap& map, const Surface& surf
   for (const Vec2 point : gaussian_points()) append(point.x, words), append(point.y, words);
   const std::size_t grains = words.size();
   if (traits.has_grains) append(0.0f, words);
-  if (traits.has_normals) append_levels(map.normals, words);
+  if (traits.has_normals) append_normals(map.normals, words);
   if (traits.leaves > 0) append_clusters(map.clusters, words);
   if (traits.mends_seams) {
     const Words seams = seam_data(surface);
