@@ -22,7 +22,7 @@ constexpr float kLeastAngle = 0.003f;
 // lobes about the half vector part beyond, and a fit to both ends would be good at neither (docs/export.md).
 constexpr float kWidestDifference = 0.25f * kPi;
 constexpr float kLeastCosine = 0.03f;  // of light and viewer
-// A coat has to earn its keep, and so has anisotropy.
+// Extensions of glTF have to earn their keep.
 constexpr float kGain = 0.8f, kGoodWithout = 0.01f;
 
 /// Directions, what is reflected in them, and what each counts.
@@ -79,9 +79,10 @@ double inverse_logistic(double y) {
   return std::log(inside / (1 - inside));
 }
 
-/// What a fit may use beside a base.
+/// What a fit may use beside glTF's core.
 struct Parts {
-  bool coat = false, anisotropy = false;
+  bool specular = false, coat = false, anisotropy = false;
+  bool metal = true;  ///< not where light passes through: metals let none
 };
 
 /// Numbers within their bounds, of any.
@@ -91,6 +92,8 @@ GltfNumbers<T> bounded(const T* x, Parts parts) {
   GltfNumbers<T> p;
   for (int i = 0; i < kGltfReflectanceNumbers; ++i) p[i] = logistic(x[i]);
   for (int i : {4, 10}) p[i] = kLeast + (1 - kLeast) * p[i];
+  if (!parts.specular) p[5] = T(1.0), p[6] = p[7] = p[8] = T(static_cast<double>(kGltfReflectance));
+  if (!parts.metal) p[3] = T(0.0);
   if (!parts.coat) p[9] = T(0.0);
   if (!parts.anisotropy) p[11] = T(0.0);
   p[12] = x[12];
@@ -256,18 +259,24 @@ MaterialFit fit_material(const BoundPatterns& patterns, std::size_t index) {
   constexpr std::uint64_t kSeen = 1, kHeldOut = 2;  // any two
   Samples seen = draw_samples(kSeen), held_out = draw_samples(kHeldOut);
   ask(patterns, index, seen), ask(patterns, index, held_out);
-  Best best = best_of_starts(seen, {});
-  const auto try_with = [&](Parts parts) {
-    if (best.error <= kGoodWithout) return;
-    const Best more = best_of_starts(seen, parts);
-    if (more.error < kGain * best.error) best = more;
-  };
-  if (has_grain(patterns, index, seen)) try_with({.coat = false, .anisotropy = true});
-  try_with({.coat = true, .anisotropy = best.numbers[11] > 0});
-  MaterialFit fit{material_of(best.numbers), 0};
   Planes<3> transmittance, emission;
   patterns.transmittance(transmittance), patterns.emission(emission);
-  let_through(transmittance.rgb(index), fit.material);
+  const Rgb passes = transmittance.rgb(index);
+  Parts parts;
+  parts.metal = passes == Rgb{};
+  Best best = best_of_starts(seen, parts);
+  const auto try_with = [&](bool Parts::*part) {
+    if (best.error <= kGoodWithout) return;
+    Parts more = parts;
+    more.*part = true;
+    const Best found = best_of_starts(seen, more);
+    if (found.error < kGain * best.error) best = found, parts = more;
+  };
+  if (has_grain(patterns, index, seen)) try_with(&Parts::anisotropy);
+  try_with(&Parts::specular);
+  try_with(&Parts::coat);
+  MaterialFit fit{material_of(best.numbers), 0};
+  let_through(passes, fit.material);
   fit.material.emission = emission.rgb(index);
   fit.error = error_of(numbers_of(fit.material), held_out);
   return fit;
