@@ -1,6 +1,6 @@
 #!/bin/bash
-# The include file of `redmap export --to glsl` in the programs of docs/examples/export: OpenGL and WebGL2 draw the CPU's
-# picture, and it is GLSL for Vulkan. Skipped where scripts/export/install_tools.sh has not run.
+# The include file of `redmap export --to glsl` in the programs of docs/examples/export: OpenGL, WebGL2 and Vulkan draw
+# the CPU's picture. Skipped where scripts/export/install_tools.sh has not run.
 #   export_glsl_test.sh REDMAP_BINARY SOURCE_FOLDER
 set -u
 redmap=$1
@@ -55,19 +55,14 @@ print(w["width"], w["height"], w["layers"], w["levels"], int(w["wraps_u"]), m["w
 node "$source/scripts/export/run_webgl2.mjs" "$tools" "$source/docs/examples/export/webgl2.html" glsl 8 256 webgl2.pfm &&
   near webgl2.pfm 0.004 || fail "expected a picture by WebGL2"
 
-# As Vulkan takes it.
-{
-  printf '#version 450\n'
-  cat glsl/redmap.glsl
-  cat <<'END'
-layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal; layout(location = 2) in vec3 tangent;
-layout(location = 3) in vec2 uv; layout(location = 4) flat in uint triangle; layout(location = 0) out vec4 color;
-void main() {
-  RedmapHit hit = redmap_seen(position, normal, tangent, uv, normalize(-position), triangle);
-  color = vec4(redmap_shade(hit, vec3(0.0, 0.0, 1.0), vec3(1.0)), 1.0);
-}
-END
-} >vulkan.frag
-glslangValidator -V vulkan.frag -o vulkan.spv >vulkan.log && spirv-val vulkan.spv ||
-  fail "expected GLSL for Vulkan, found: $(cat vulkan.log)"
+# Vulkan, under its validation layer, which says what it finds on stdout.
+for stage in vert frag; do
+  glslangValidator -V -Iglsl "$source/docs/examples/export/vulkan.$stage" -o vulkan.$stage.spv >vulkan.log &&
+    spirv-val vulkan.$stage.spv || fail "expected GLSL for Vulkan, found: $(cat vulkan.log)"
+done
+c++ -std=c++20 -O1 "$source/docs/examples/export/vulkan.cpp" -o vulkan -lvulkan || fail "expected vulkan.cpp to compile"
+# shellcheck disable=SC2086
+VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation ./vulkan glsl $numbers 8 256 vulkan.pfm >vulkan.log 2>&1
+[ ! -s vulkan.log ] || fail "expected nothing of Vulkan's validation layer, found: $(cat vulkan.log)"
+near vulkan.pfm 0.004 || fail "expected a picture by Vulkan"
 exit $((failures > 0))
