@@ -16,12 +16,6 @@ Method method_of(const std::string& name) {
   throw Error("method: expected \"map\", \"original\" or \"supersample\", found \"{}\"", name);
 }
 
-Quality quality_of(const std::string& name) {
-  if (name == "default") return Quality::kDefault;
-  if (name == "fast") return Quality::kFast;
-  throw Error("quality: expected \"default\" or \"fast\", found \"{}\"", name);
-}
-
 /// One map an object: those given, or else the files that the objects name.
 std::vector<ObjectData> data_of(const Scene& scene, Method method, const std::optional<Maps>& maps) {
   std::vector<ObjectData> data(scene.objects.size());
@@ -57,7 +51,8 @@ void bind_rendering(nb::module_& module) {
       "spp"_a = 0, "seed"_a = 0, "frame"_a = 1, "progress"_a = nb::none(),
       fmt::format("A picture of the scene, (height, width, 3) in linear light. `maps`: one an object; without, the "
                   "files that the objects name are read. method: map, original (the shader itself, at the map's "
-                  "rays) or supersample. quality: default (2 x 2 rays a pixel) or fast (one). spp: {}. frame: "
+                  "rays) or supersample. quality: default (2 x 2 rays a pixel), balanced (2 x 2, shaded as one) or "
+                  "fast (one). spp: {}. frame: "
                   "decides the random numbers. progress: told the part done. Raises Error.",
                   doc::RenderOptions_spp)
           .c_str());

@@ -46,6 +46,8 @@ Method method_of(const std::string& name) {
   return static_cast<Method>(found - std::begin(kMethodNames));
 }
 
+std::vector<std::string> quality_names() { return {std::begin(kQualityNames), std::end(kQualityNames)}; }
+
 std::vector<std::string> method_names() { return {std::begin(kMethodNames), std::end(kMethodNames)}; }
 
 }  // namespace redmap::cli

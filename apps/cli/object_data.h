@@ -20,5 +20,7 @@ void add_baseline(const Object& object, Method method, int size, ObjectData& dat
 Method method_of(const std::string& name);
 /// All their names, for help and checks.
 std::vector<std::string> method_names();
+/// Of Quality.
+std::vector<std::string> quality_names();
 
 }  // namespace redmap::cli

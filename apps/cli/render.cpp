@@ -31,7 +31,7 @@ namespace redmap::cli {
 namespace {
 
 // Raised whenever the same scene, map and settings would give another picture.
-constexpr std::uint64_t kRendererVersion = 2;
+constexpr std::uint64_t kRendererVersion = 3;
 
 struct RenderCommandOptions {
   CommonOptions common;
@@ -46,7 +46,7 @@ struct RenderCommandOptions {
 RenderOptions render_options(const RenderCommandOptions& options) {
   RenderOptions render;
   render.method = method_of(options.method);
-  render.quality = options.quality == "fast" ? Quality::kFast : Quality::kDefault;
+  render.quality = quality_of(options.quality);
   render.spp = options.spp;
   render.seed = options.seed;
   render.decisions = options.show == "decisions";
@@ -238,8 +238,11 @@ void add_render_command(CLI::App& app) {
          "samples. parameters: mip-mapped averaged material parameters. paper: Van Horn and Turk to the letter")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  sub->add_option("--quality", options->quality, "Rays a pixel: default (2 x 2) or fast (1), more where needed")
-      ->check(CLI::IsMember({"default", "fast"}))
+  sub->add_option(
+         "--quality", options->quality,
+         "Rays a pixel, more where needed: default (2 x 2), balanced (2 x 2, looked up and shaded as one where "
+         "they see one smooth piece of surface) or fast (1)")
+      ->check(CLI::IsMember(quality_names()))
       ->capture_default_str();
   sub->add_option("--show", options->show,
                   "picture, or decisions: how the value of each pixel was found, one flat colour each")

@@ -143,7 +143,7 @@ std::filesystem::path picture_path(const Options& options, const Object& object,
 
 VerifyReport verify_object(const Options& options, const Object& object, std::shared_ptr<const ReductionMap> map) {
   VerifyOptions verify_options = options.verify;
-  verify_options.quality = options.quality == "fast" ? Quality::kFast : Quality::kDefault;
+  verify_options.quality = quality_of(options.quality);
   verify_options.cancelled = interrupted;
   Progress progress("verify " + object.name);
   verify_options.progress = [&](double part) { progress.update(part); };
@@ -226,7 +226,7 @@ void add_verify_command(CLI::App& app) {
       ->capture_default_str();
   sub->add_option("--seed", verify_options.seed, "another number, other pixels")->capture_default_str();
   sub->add_option("--quality", options->quality, "of the frames that the verdict is about")
-      ->check(CLI::IsMember({"fast", "default"}))
+      ->check(CLI::IsMember(quality_names()))
       ->capture_default_str();
   sub->add_flag("--store", options->store, "put the certificate into the map, for redmap inspect to show");
   add_override_option(*sub, options->overrides);

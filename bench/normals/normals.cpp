@@ -36,12 +36,13 @@ std::vector<MethodCase> methods_of(const NormalsOptions& options) {
     if (std::count(options.methods.begin(), options.methods.end(), name) == 0) return;
     MethodCase& added = methods.emplace_back(MethodCase{name, quality, {}, lookups});
     added.options.method = method, added.options.spp = spp;
-    added.options.quality = std::string_view(quality) == "fast" ? Quality::kFast : Quality::kDefault;
+    if (*quality) added.options.quality = quality_of(quality);
   };
   for (int spp : options.spp) add(Method::kSupersample, "", spp, 1);
   add(Method::kParameters, "default", 0, 4);
   add(Method::kPaper, "", 0, 1);
   add(Method::kMap, "fast", 0, 1);
+  add(Method::kMap, "balanced", 0, 1);
   add(Method::kMap, "default", 0, 4);
   return methods;
 }

@@ -91,8 +91,9 @@ NamedMethod paper_method() {
 }
 
 NamedMethod map_method(Quality quality) {
-  const bool fast = quality == Quality::kFast;
-  NamedMethod method{fast ? "map_fast" : "map", fast ? "map, fast" : "map", {}};
+  const std::string name(name_of(quality));
+  const bool plain = quality == Quality::kDefault;
+  NamedMethod method{plain ? "map" : "map_" + name, plain ? "map" : "map, " + name, {}};
   method.options.quality = quality;
   return method;
 }

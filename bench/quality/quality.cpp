@@ -122,7 +122,8 @@ std::vector<MethodCase> methods_of(const QualityOptions& options, const Shader& 
   if (has_parameters(shader.info()))
     for (Quality quality : {Quality::kFast, Quality::kDefault}) all.push_back({Method::kParameters, quality, 0});
   all.push_back({Method::kPaper, Quality::kDefault, 0});
-  for (Quality quality : {Quality::kFast, Quality::kDefault}) all.push_back({Method::kMap, quality, 0});
+  for (Quality quality : {Quality::kFast, Quality::kBalanced, Quality::kDefault})
+    all.push_back({Method::kMap, quality, 0});
   if (!options.methods.empty())
     std::erase_if(all, [&](const MethodCase& m) {
       const std::string name(kMethodNames[static_cast<int>(m.method)]);
@@ -138,7 +139,7 @@ void measure_case(const Case& c, const QualityRow& labels, const std::vector<Met
   for (const MethodCase& method : methods) {
     QualityRow row = labels;
     row.method = kMethodNames[static_cast<int>(method.method)];
-    if (has_quality(method.method)) row.quality = method.quality == Quality::kFast ? "fast" : "default";
+    if (has_quality(method.method)) row.quality = name_of(method.quality);
     row.spp = method.spp;
     const ErrorSums errors = errors_of(c, options_of(method));
     row.rmse_interior = errors.interior();

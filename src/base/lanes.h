@@ -124,6 +124,11 @@ REDMAP_INLINE Float load(const float* from) {
 }
 REDMAP_INLINE void store(float* to, Float value) { std::memcpy(to, &value.v, sizeof value.v); }
 
+/// Of all lanes.
+REDMAP_INLINE float sum(Float f) {
+  return ((f.v[0] + f.v[1]) + (f.v[2] + f.v[3])) + ((f.v[4] + f.v[5]) + (f.v[6] + f.v[7]));
+}
+
 /// `yes` where `condition` holds, else `no`.
 REDMAP_INLINE Float select(Bool condition, Float yes, Float no) { return condition.v ? yes.v : no.v; }
 

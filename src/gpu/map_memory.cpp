@@ -102,7 +102,7 @@ void append_grains(const WeightPyramid& grains, Words& words) {
 /// From the root on; nodes above the leaves are joined as the CPU joins them.
 void append_clusters(const SurfaceClusters& clusters, Words& words) {
   for (std::size_t node = 1; node < 2 * clusters.leaves(); ++node) {
-    const ClusterPlace& place = clusters.place(node);
+    const ClusterPlace place = clusters.place(node);
     append(place.position, words), append(place.normal, words);
     append(place.radius, words), append(place.variance, words);
     for (const float weight : clusters.weights(node)) append(weight, words);

@@ -84,10 +84,10 @@ void write_clusters(Imf::MultiPartOutputFile& file, int part, const SurfaceClust
   const int leaves = static_cast<int>(clusters.leaves()), width = std::min(kRow, leaves);
   LeafPixels pixels(width, leaves / width, clusters.channels());
   for (int i = 0; i < leaves; ++i) {
-    const auto& [position, normal, radius, variance] = clusters.leaf(i);
+    const auto [position, normal, radius, variance] = clusters.leaf(i);
     const float place[] = {position.x, position.y, position.z, normal.x, normal.y, normal.z, radius, variance};
     std::copy(std::begin(place), std::end(place), pixels.leaf(i));
-    const std::span<const float> weights = clusters.leaf_weights(i);
+    const std::vector<float> weights = clusters.leaf_weights(i);
     std::copy(weights.begin(), weights.end(), pixels.leaf(i) + kPlaceFloats);
   }
   Imf::TiledOutputPart out(file, part);

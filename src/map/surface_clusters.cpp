@@ -6,10 +6,15 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/lanes_math.h"
 #include "map/lookup_limits.h"
 
 namespace redmap {
 namespace {
+
+using lanes::Bool;
+using lanes::Float;
+using lanes::Int;
 
 /// Two patches of equal area as one.
 ClusterPlace join(const ClusterPlace& a, const ClusterPlace& b) {
@@ -62,6 +67,30 @@ class CellSorter {
   std::vector<std::uint32_t>& order_;
 };
 
+struct Vec3Lanes {
+  Float x, y, z;
+};
+Float dot(const Vec3Lanes& a, const Vec3Lanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Float dot(Vec3 a, const Vec3Lanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// Eight ClusterPlace.
+struct PlaceLanes {
+  Vec3Lanes position, normal;
+  Float radius, variance;
+  explicit PlaceLanes(const float* block)
+      : position{at(block, 0), at(block, 1), at(block, 2)},
+        normal{at(block, 3), at(block, 4), at(block, 5)},
+        radius(at(block, 6)),
+        variance(at(block, 7)) {}
+  static Float at(const float* block, int component) { return lanes::load(block + component * kLanes); }
+};
+
+/// Lanes [first, first + count).
+Bool some_lanes(std::size_t first, std::size_t count) {
+  const Int lane = lanes::IntRegister{0, 1, 2, 3, 4, 5, 6, 7};
+  return lane >= Int(static_cast<int>(first)) && lane < Int(static_cast<int>(first + count));
+}
+
 /// How much of a place counts: squared distances in units of the footprint's standard deviation, and the side.
 class FootprintKernel {
  public:
@@ -75,7 +104,7 @@ class FootprintKernel {
         m[i][j] = (f.axis_x[i] * f.axis_x[j] + f.axis_y[i] * f.axis_y[j] + f.normal[i] * f.normal[j] * longer +
                    (i == j ? kClusterRound * longer : 0)) /
                   12;
-    largest_variance_ = (longer + dot(f.axis_x, f.axis_x) + dot(f.axis_y, f.axis_y)) / 12;
+    reach_ = std::sqrt(kClusterSupport * (longer + dot(f.axis_x, f.axis_x) + dot(f.axis_y, f.axis_y)) / 12);
     const float area = length(cross(f.axis_x, f.axis_y));
     smallest_variance_ = longer > 0 ? std::max(area * area / longer, kClusterRound * longer) / 12 : 0;
     const Vec3 rows[3] = {{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]}, {m[2][0], m[2][1], m[2][2]}};
@@ -83,28 +112,29 @@ class FootprintKernel {
     for (int i = 0; i < 3; ++i) inverse_[i] = cross(rows[(i + 1) % 3], rows[(i + 2) % 3]) / determinant;
   }
 
-  bool reaches(const ClusterPlace& place) const {
-    const Vec3 away = place.position - centre_;
-    const float reach = std::sqrt(kClusterSupport * largest_variance_) + place.radius;
-    return dot(away, away) < reach * reach;
-  }
-  /// Whether a patch is small and flat enough to count as one.
-  bool is_small(const ClusterPlace& place) const {
+  /// How much of each of eight places counts, and which of them have to be cut into smaller ones first.
+  struct Counted {
+    Float part;
+    Bool large;
+  };
+  Counted count(const PlaceLanes& place, Bool are_leaves) const {
+    const Vec3Lanes away{place.position.x - centre_.x, place.position.y - centre_.y, place.position.z - centre_.z};
+    const Float reach = place.radius + reach_;
+    const Bool reached = dot(away, away) < reach * reach;
     // A tenth of the variance blurs the footprint by 5 %; half a radian of curvature.
-    return place.variance < 0.1f * smallest_variance_ && dot(place.normal, place.normal) > 0.9f;
-  }
-  float weight(const ClusterPlace& place) const {
-    const Vec3 away = place.position - centre_;
-    const Vec3 scaled{dot(inverse_[0], away), dot(inverse_[1], away), dot(inverse_[2], away)};
+    const Bool small =
+        are_leaves || (place.variance < 0.1f * smallest_variance_ && dot(place.normal, place.normal) > 0.9f);
     // Flat in the middle, nil beyond the support; and a soft step from one side of the surface to the other.
-    const float near = std::max(0.0f, 1 - dot(away, scaled) / kClusterSupport);
-    return near * std::clamp(kClusterSideSlope * dot(normal_, place.normal), 0.0f, 1.0f);
+    const Vec3Lanes scaled{dot(inverse_[0], away), dot(inverse_[1], away), dot(inverse_[2], away)};
+    const Float near = lanes::max(0.0f, 1.0f - dot(away, scaled) * (1 / kClusterSupport));
+    const Float facing = lanes::clamp(kClusterSideSlope * dot(normal_, place.normal), 0.0f, 1.0f);
+    return {lanes::select(reached && small, near * facing, 0.0f), reached && !small};
   }
   bool is_usable() const { return std::isfinite(inverse_[0].x + inverse_[1].y + inverse_[2].z); }
 
  private:
   Vec3 centre_, normal_, inverse_[3];
-  float largest_variance_, smallest_variance_;
+  float reach_, smallest_variance_;
 };
 
 }  // namespace
@@ -135,16 +165,35 @@ SurfaceClusters::SurfaceClusters(std::vector<ClusterPlace> leaves, std::vector<f
   for (const float w : leaf_weights)
     if (!std::isfinite(w)) throw Error("clusters: expected finite weights");
 
-  places_.resize(2 * count);
-  weights_.resize(2 * count * channels);
-  std::copy(leaves.begin(), leaves.end(), places_.begin() + count);
-  std::copy(leaf_weights.begin(), leaf_weights.end(), weights_.begin() + count * channels);
-  for (std::size_t node = count; node-- > 1;) {
-    places_[node] = join(places_[2 * node], places_[2 * node + 1]);
+  leaves_ = count;
+  blocks_.resize(padded(2 * count) * (kPlaceFloats + channels));
+  for (std::size_t leaf = 0; leaf < count; ++leaf) {
+    set(count + leaf, leaves[leaf]);
     for (int c = 0; c < channels; ++c)
-      weights_[node * channels + c] =
-          0.5f * (weights_[2 * node * channels + c] + weights_[(2 * node + 1) * channels + c]);
+      blocks_[index(count + leaf, kPlaceFloats + c)] = leaf_weights[leaf * channels + c];
   }
+  for (std::size_t node = count; node-- > 1;) {
+    set(node, join(place(2 * node), place(2 * node + 1)));
+    for (int c = kPlaceFloats; c < kPlaceFloats + channels; ++c)
+      blocks_[index(node, c)] = 0.5f * (blocks_[index(2 * node, c)] + blocks_[index(2 * node + 1, c)]);
+  }
+}
+
+void SurfaceClusters::set(std::size_t node, const ClusterPlace& p) {
+  const float components[kPlaceFloats] = {p.position.x, p.position.y, p.position.z, p.normal.x,
+                                          p.normal.y,   p.normal.z,   p.radius,     p.variance};
+  for (int c = 0; c < kPlaceFloats; ++c) blocks_[index(node, c)] = components[c];
+}
+
+ClusterPlace SurfaceClusters::place(std::size_t node) const {
+  const auto at = [&](int c) { return blocks_[index(node, c)]; };
+  return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}, at(6), at(7)};
+}
+
+std::vector<float> SurfaceClusters::weights(std::size_t node) const {
+  std::vector<float> weights(channels_);
+  for (int c = 0; c < channels_; ++c) weights[c] = blocks_[index(node, kPlaceFloats + c)];
+  return weights;
 }
 
 SurfaceClusters SurfaceClusters::build(std::span<const ClusterPlace> cells, std::span<const float> weights,
@@ -177,27 +226,33 @@ SurfaceClusters SurfaceClusters::build(std::span<const ClusterPlace> cells, std:
 bool SurfaceClusters::lookup(const SurfaceFootprint& footprint, std::array<float, kMaxChannels>& weights) const {
   const FootprintKernel kernel(footprint);
   if (empty() || !kernel.is_usable()) return false;
-  weights.fill(0);
-  float total = 0;
-  // Deep enough for 2^31 leaves: one sibling waits on every level.
-  std::size_t waiting[33] = {1};
+  Float total = 0.0f;
+  std::array<Float, kMaxChannels> sums;
+  std::fill_n(sums.begin(), channels_, 0.0f);
+  // What is below a node is looked at three levels down, where its eight patches lie side by side. Seven of each eight
+  // wait: enough for 2^33 leaves.
+  constexpr int kStep = 3;
+  std::size_t waiting[80] = {1};
+  const int last = static_cast<int>(std::bit_width(leaves()));
   for (int count = 1; count > 0;) {
-    const std::size_t node = waiting[--count];
-    const ClusterPlace& place = places_[node];
-    if (!kernel.reaches(place)) continue;
-    if (node < leaves() && !kernel.is_small(place)) {
-      waiting[count++] = 2 * node + 1, waiting[count++] = 2 * node;
-      continue;
-    }
+    const std::size_t above = waiting[--count];
+    const int down = std::min(kStep, last - static_cast<int>(std::bit_width(above)));
+    const std::size_t first = above << down;
+    const float* block = blocks_.data() + index(first - first % kLanes, 0);
+    const Bool there = some_lanes(first % kLanes, std::size_t{1} << down);
+    const FootprintKernel::Counted counted = kernel.count(PlaceLanes(block), first >= leaves());
     // Patches on one level have equal areas: twice that of the level below.
-    const float part = kernel.weight(place) * std::ldexp(1.0f, -static_cast<int>(std::bit_width(node)));
-    if (part <= 0) continue;
+    const Float area = std::ldexp(1.0f, -static_cast<int>(std::bit_width(first)));
+    const Float part = lanes::select(there, counted.part * area, 0.0f);
     total += part;
-    const std::span<const float> mean = this->weights(node);
-    for (int c = 0; c < channels_; ++c) weights[c] += part * mean[c];
+    for (int c = 0; c < channels_; ++c) sums[c] += part * lanes::load(block + (kPlaceFloats + c) * kLanes);
+    const Bool large = there && counted.large;
+    for (std::size_t lane = kLanes; lane-- > 0;)
+      if (large.v[lane]) waiting[count++] = first - first % kLanes + lane;
   }
-  if (!(total > 0)) return false;
-  for (int c = 0; c < channels_; ++c) weights[c] /= total;
+  const float whole = lanes::sum(total);
+  if (!(whole > 0)) return false;
+  for (int c = 0; c < channels_; ++c) weights[c] = lanes::sum(sums[c]) / whole;
   return true;
 }
 

@@ -41,26 +41,31 @@ class SurfaceClusters {
   static SurfaceClusters build(std::span<const ClusterPlace> cells, std::span<const float> weights, int channels,
                                std::size_t leaves);
 
-  bool empty() const { return places_.empty(); }
+  bool empty() const { return leaves_ == 0; }
   int channels() const { return channels_; }
-  std::size_t leaves() const { return places_.size() / 2; }
+  std::size_t leaves() const { return leaves_; }
   /// Of a node: 1 is the root, 2 i and 2 i + 1 are below i, the last half are the leaves.
-  const ClusterPlace& place(std::size_t node) const { return places_[node]; }
-  std::span<const float> weights(std::size_t node) const {
-    return {weights_.data() + node * channels_, static_cast<std::size_t>(channels_)};
-  }
-  const ClusterPlace& leaf(std::size_t i) const { return place(leaves() + i); }
-  std::span<const float> leaf_weights(std::size_t i) const { return weights(leaves() + i); }
-  std::size_t bytes() const { return places_.size() * sizeof(ClusterPlace) + weights_.size() * sizeof(float); }
+  ClusterPlace place(std::size_t node) const;
+  std::vector<float> weights(std::size_t node) const;
+  ClusterPlace leaf(std::size_t i) const { return place(leaves() + i); }
+  std::vector<float> leaf_weights(std::size_t i) const { return weights(leaves() + i); }
+  std::size_t bytes() const { return blocks_.size() * sizeof(float); }
 
   /// Mean weights of what is under the footprint and faces its side, into the first channels of `weights`. False if
   /// nothing is.
   bool lookup(const SurfaceFootprint& footprint, std::array<float, kMaxChannels>& weights) const;
 
  private:
+  static constexpr int kPlaceFloats = 8;
+  /// Of component `c` of the place of a node, or of weight c - kPlaceFloats.
+  std::size_t index(std::size_t node, int c) const {
+    return ((node / kLanes) * (kPlaceFloats + channels_) + c) * kLanes + node % kLanes;
+  }
+  void set(std::size_t node, const ClusterPlace& place);
+
   int channels_ = 0;
-  std::vector<ClusterPlace> places_;
-  std::vector<float> weights_;
+  std::size_t leaves_ = 0;
+  LaneVector<float> blocks_;  ///< of eight nodes: each component of their places and weights side by side
 };
 
 }  // namespace redmap

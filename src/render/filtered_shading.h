@@ -27,6 +27,7 @@ class FilteredShading : public ObjectShading {
   virtual void shade_filtered(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const = 0;
   virtual Rgb filtered_transmittance(const Footprint& footprint) const = 0;
   const ObjectShading& original() const { return *original_; }
+  bool transmits() const { return transmits_; }
   Extent base_extent_;
 
  private:

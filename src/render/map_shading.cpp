@@ -49,6 +49,11 @@ void face_viewer(const ShadingBatch& batch, NormalMixtures& mixtures) {
   }
 }
 
+/// Of a joined hit's footprint, around `uv`.
+Footprint quarter(const Footprint& footprint, Vec2 uv) {
+  return {uv, footprint.duv_dx * 0.5f, footprint.duv_dy * 0.5f};
+}
+
 class MapShading : public FilteredShading {
  public:
   MapShading(std::shared_ptr<const Shader> shader, std::shared_ptr<const ReductionMap> map,
@@ -57,6 +62,16 @@ class MapShading : public FilteredShading {
         map_(std::move(map)),
         surface_(std::move(surface)),
         basis_(*shader, *map_) {}
+
+  /// What passes light goes on ray by ray; and where one of the four would see the shader itself, it shall.
+  bool takes_joined(const Footprint& footprint) const override {
+    return !transmits() && filtered_part(quarter(footprint, footprint.uv)) >= 1;
+  }
+  /// Where a highlight changes within the four, one mean normal is not good enough. Maps with normals gather those of
+  /// all four.
+  bool takes_apart(Decision decision) const override {
+    return map_->normals.empty() && (decision == Decision::kConvolved || decision == Decision::kDrawn);
+  }
 
  protected:
   void shade_filtered(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const override {
@@ -82,19 +97,33 @@ class MapShading : public FilteredShading {
     counts.lookups += batch.size();
   }
 
-  /// Weights under each footprint: weights[basis][hit].
+  /// Weights under each footprint: weights[basis][hit]. Joined hits are looked up each by itself: the mean of four
+  /// narrow lookups is nearer to a box than one wide lookup is, and costs little beside shading.
   std::vector<LaneVector<float>> look_up(const ShadingBatch& batch, RenderCounts& counts) const {
+    if (batch.parts.empty()) return look_up(batch, batch.footprints, 1, counts);
+    std::vector<Footprint> footprints;
+    footprints.reserve(kJoined * batch.size());
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      for (const Vec2 uv : batch.parts[i]) footprints.push_back(quarter(batch.footprints[i], uv));
+    return look_up(batch, footprints, kJoined, counts);
+  }
+
+  /// The mean over `each` footprints a hit, one after the other.
+  std::vector<LaneVector<float>> look_up(const ShadingBatch& batch, std::span<const Footprint> footprints,
+                                         std::size_t each, RenderCounts& counts) const {
     std::vector<LaneVector<float>> weights(map_->basis.size(), LaneVector<float>(padded(batch.size()), 0.0f));
     const Seams* seams = surface_->seams();
-    const auto use = [&](std::size_t i, const FilteredTexel& texel) {
-      const Footprint& footprint = batch.footprints[i];
+    const float part = 1 / static_cast<float>(each);
+    const auto use = [&](std::size_t k, const FilteredTexel& texel) {
+      const std::size_t i = k / each;
+      const Footprint& footprint = footprints[k];
       // Where clusters serve alone there are no seams.
       const bool mend = seams && (map_->clusters.empty() || cluster_part(footprint, base_extent_) < 1);
       const FilteredTexel& whole =
           mend ? mend_at_seams(map_->weights, *seams, batch.hits[i].chart, footprint, texel, counts.lookups) : texel;
-      for (std::size_t b = 0; b < weights.size(); ++b) weights[b][i] = whole.channel[b];
+      for (std::size_t b = 0; b < weights.size(); ++b) weights[b][i] += part * whole.channel[b];
     };
-    for_each_lookup(map_->weights, batch.footprints, LookupFilter::kVarianceMatched, counts, use);
+    for_each_lookup(map_->weights, footprints, LookupFilter::kVarianceMatched, counts, use);
     return weights;
   }
 
@@ -113,7 +142,7 @@ class MapShading : public FilteredShading {
     std::array<float, kMaxChannels> mean;
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const Footprint& footprint = batch.footprints[i];
-      const float part = cluster_part(footprint, base_extent_);
+      const float part = cluster_part(batch.parts.empty() ? footprint : quarter(footprint, footprint.uv), base_extent_);
       if (part <= 0) continue;
       ++counts.lookups;
       const SurfaceHit& hit = batch.hits[i];

@@ -20,9 +20,6 @@ bool any(lanes::Bool b) {
 Vec3Lanes load(const Planes<3>& planes, std::size_t i) {
   return {lanes::load(planes[0] + i), lanes::load(planes[1] + i), lanes::load(planes[2] + i)};
 }
-float sum_of_lanes(const Float& f) {
-  return ((f.v[0] + f.v[1]) + (f.v[2] + f.v[3])) + ((f.v[4] + f.v[5]) + (f.v[6] + f.v[7]));
-}
 
 NormalLanes load_normals(const NormalMixtures& m, std::size_t i) {
   return {lanes::load(&m.x[i]), lanes::load(&m.y[i]), lanes::load(&m.xx[i]), lanes::load(&m.xy[i]),
@@ -48,8 +45,8 @@ WeightedNormals load_some(const NormalMixtures& m, std::size_t weights, std::siz
 
 /// Adds up what eight distributions of one hit gave, into lane `lane` of the sums of eight hits.
 void reduce(const LobeSums& of_hit, std::size_t lane, LobeSums& hits) {
-  for (int k = 0; k < LobeModel::kWidths; ++k) hits.gaussian[k].v[lane] = sum_of_lanes(of_hit.gaussian[k]);
-  const auto each = [&](Float LobeSums::*member) { (hits.*member).v[lane] = sum_of_lanes(of_hit.*member); };
+  for (int k = 0; k < LobeModel::kWidths; ++k) hits.gaussian[k].v[lane] = lanes::sum(of_hit.gaussian[k]);
+  const auto each = [&](Float LobeSums::*member) { (hits.*member).v[lane] = lanes::sum(of_hit.*member); };
   for (Float LobeSums::*member : {&LobeSums::cosine, &LobeSums::in_plane, &LobeSums::across, &LobeSums::brightness,
                                   &LobeSums::spread, &LobeSums::weight, &LobeSums::x, &LobeSums::y})
     each(member);

@@ -96,7 +96,8 @@ RenderedFrame Renderer::render(const Scene& scene, int frame) {
 
   if (options_.decisions) result.decisions.resize(result.image.pixels());
 
-  const FrameContext context{&scene, make_camera_rays(scene.camera), &tracer_, shading_, originals_, transmits_};
+  const FrameContext context{&scene,     make_camera_rays(scene.camera), &tracer_, shading_, originals_,
+                             transmits_, joined_pixels(options_)};
   const TileJob job{&context,
                     &options_,
                     &supersampled_,
@@ -107,7 +108,7 @@ RenderedFrame Renderer::render(const Scene& scene, int frame) {
   const auto render_tile = options_.method == Method::kSupersample ? render_supersampled
                            : options_.method == Method::kPaper     ? render_paper
                                                                    : render_grid;
-  const std::vector<Tile> tiles = tiles_of(scene.camera, tile_size(options_));
+  const std::vector<Tile> tiles = tiles_of(scene.camera, tile_size(options_, scene.camera.width, scene.camera.height));
   std::vector<RenderCounts> counts(tiles.size());
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {

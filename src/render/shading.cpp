@@ -41,7 +41,9 @@ ShadingBatch select(const ShadingBatch& batch, std::span<const std::uint32_t> in
   ShadingBatch part;
   part.time = batch.time, part.may_defer = batch.may_defer;
   pick(batch.hits, part.hits), pick(batch.turned, part.turned), pick(batch.frames, part.frames);
-  pick(batch.footprints, part.footprints), pick(batch.to_viewer, part.to_viewer);
+  if (!batch.footprints.empty()) pick(batch.footprints, part.footprints);
+  pick(batch.to_viewer, part.to_viewer);
+  if (!batch.parts.empty()) pick(batch.parts, part.parts);
   part.lights.resize(batch.lights.size());
   for (std::size_t light = 0; light < batch.lights.size(); ++light) {
     pick(batch.lights[light].to_light, part.lights[light].to_light);

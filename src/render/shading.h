@@ -1,6 +1,7 @@
 // How the hits on one object become radiance: by its shader, by its reduction map, or by a baseline.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -24,6 +25,9 @@ struct RenderCounts {
   RenderCounts& operator+=(const RenderCounts& other);
 };
 
+/// Hits that are shaded as one (joined_hits.h).
+inline constexpr std::size_t kJoined = 4;
+
 /// Hits on one object with all that shading needs, in object space. One entry a hit everywhere.
 struct ShadingBatch {
   std::vector<SurfaceHit> hits;       ///< normals turned towards the viewer
@@ -31,6 +35,8 @@ struct ShadingBatch {
   std::vector<Frame> frames;          ///< shading frames: z the hit's interpolated normal
   std::vector<Footprint> footprints;  ///< of the sample that hit
   std::vector<Vec3> to_viewer;
+  /// Of joined hits: the uv of each, on the same side of where the map wraps. The footprint is twice as wide as theirs.
+  std::vector<std::array<Vec2, kJoined>> parts;
   struct Light {
     std::vector<Vec3> to_light;
     Planes<3> irradiance;  ///< at normal incidence, shadows included
@@ -54,6 +60,10 @@ class ObjectShading {
   virtual void shade(const ShadingBatch& batch, ShadedBatch& out, RenderCounts& counts) const = 0;
   /// Whether `footprints` are looked at; where not, they need not be there.
   virtual bool needs_footprints() const = 0;
+  /// Whether hits that make up `footprint` together may be shaded as one: close up they may not.
+  virtual bool takes_joined(const Footprint&) const { return false; }
+  /// Whether joined hits that came to `decision` had better be shaded one by one after all.
+  virtual bool takes_apart(Decision) const { return false; }
   /// Only the transmittance, for shadows: `footprints` of the shadow rays where they hit.
   virtual void transmittance(std::span<const SurfaceHit> hits, std::span<const Footprint> footprints, float time,
                              Planes<3>& out) const = 0;

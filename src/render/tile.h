@@ -9,9 +9,19 @@
 
 namespace redmap {
 
-/// Pixels a side: about 4 096 samples, a wavefront that stays in the second-level cache, whatever the method.
-inline int tile_size(const RenderOptions& options) {
-  return options.method != Method::kPaper && options.quality == Quality::kFast ? 64 : 32;
+/// Pixels a side of tiles: about 4 096 samples, a wavefront that stays in the second-level cache; fewer where a picture
+/// would have so few tiles that threads run out of them.
+inline int tile_size(const RenderOptions& options, int width, int height) {
+  constexpr int kLeast = 16, kTiles = 16;
+  int size = options.method != Method::kPaper && options.quality == Quality::kFast ? 64 : 32;
+  while (size > kLeast && width * height < kTiles * size * size) size /= 2;
+  return size;
+}
+
+/// Side of the squares of samples that are shaded as one. Half a pixel is what every ray stands for at default quality.
+inline float joined_pixels(const RenderOptions& options) {
+  if (options.method == Method::kPaper) return 0;
+  return options.quality == Quality::kDefault ? 0.5f : 1.0f;
 }
 
 struct Tile {

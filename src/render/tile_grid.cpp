@@ -111,7 +111,7 @@ std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
 int refined_rays(Refine reason, Quality quality) {
   switch (reason) {
     case Refine::kSeam:
-      return quality == Quality::kFast ? 2 : 3;
+      return quality == Quality::kDefault ? 3 : 2;
     case Refine::kSilhouette:
       return quality == Quality::kFast ? 2 : 4;
     case Refine::kSupersample:
@@ -120,6 +120,18 @@ int refined_rays(Refine reason, Quality quality) {
       break;
   }
   return 0;
+}
+
+/// The same n x n samples as append_pixel_samples, but in squares of 2 x 2, which may be shaded as one.
+void append_squares(std::uint32_t pixel, int image_width, int n, std::vector<CameraSample>& samples) {
+  const std::size_t first = samples.size();
+  append_pixel_samples(pixel, image_width, n, n, 0, samples);
+  if (n % 2 != 0) return;
+  const std::vector<CameraSample> rows(samples.begin() + static_cast<std::ptrdiff_t>(first), samples.end());
+  auto next = samples.begin() + static_cast<std::ptrdiff_t>(first);
+  for (int j = 0; j < n; j += 2)
+    for (int i = 0; i < n; i += 2)
+      for (const int corner : {j * n + i, j * n + i + 1, (j + 1) * n + i, (j + 1) * n + i + 1}) *next++ = rows[corner];
 }
 
 /// Rays a side of every pixel before refinement; original may ask for a fixed number.
@@ -170,8 +182,7 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
         job.pixels.decisions[static_cast<std::uint32_t>(y) * job.image_width + x] =
             reason == Refine::kSupersample ? Decision::kSupersampled : Decision::kSubdivided;
       if (rays > n)
-        append_pixel_samples(static_cast<std::uint32_t>(y) * job.image_width + x, job.image_width, rays, rays, 0,
-                             refined.samples);
+        append_squares(static_cast<std::uint32_t>(y) * job.image_width + x, job.image_width, rays, refined.samples);
       else
         for (int j = 0; j < n; ++j)
           for (int i = 0; i < n; ++i) kept.push_back(static_cast<std::uint32_t>(sample(i, j)));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/hit_footprint.h"
+#include "render/joined_hits.h"
 
 namespace redmap {
 
@@ -174,34 +175,65 @@ bool record_decision(std::uint32_t pixel, Decision decision, const PixelSums& pi
   return !deferred;
 }
 
+/// Adds what hits were shaded to: hit i is that of path owner[i] and of as many as it `stands_for` (owner empty: of
+/// path i alone). What passes goes on behind them, in `onward`.
+void receive(const FrameContext& frame, const Paths& paths, const ShadedBatch& shaded,
+             std::span<const std::uint32_t> owner, float stands_for, const PixelSums& pixels, Layer& onward) {
+  for (std::size_t i = 0; i < shaded.decisions.size(); ++i) {
+    const std::size_t path = owner.empty() ? i : owner[i];
+    if (path == kTakenApart) continue;
+    const CameraSample& sample = paths.traced.samples[paths.sample(path)];
+    if (!paths.layer && !record_decision(sample.pixel, shaded.decisions[i], pixels)) continue;
+    add_light(sample, paths.throughput(path) * shaded.radiance.rgb(i) * stands_for, pixels.rgb);
+    const Rgb throughput = paths.throughput(path) * shaded.transmittance.rgb(i);
+    if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
+    const RayHit& hit = paths.hit(path);
+    Ray ray = paths.ray(path);
+    ray.t_near = hit.t + offset_of(frame.scene->objects[hit.object], hit.t);
+    onward.sample.push_back(paths.sample(path));
+    onward.throughput.push_back(throughput);
+    onward.rays.push_back(ray);
+  }
+}
+
+/// Squares of samples shaded as one; empty where the object's shading takes none.
+JoinedHits join_paths(const FrameContext& frame, const Paths& paths, const ShadingBatch& batch) {
+  const std::uint32_t object = paths.hit(0).object;
+  if (frame.joined_pixels <= 0 || paths.layer || !paths.traced.footprints.empty()) return {};
+  return join_hits(paths.traced.samples, paths.members, batch, frame.joined_pixels, *frame.shading[object],
+                   frame.scene->objects[object].surface->wraps_u());
+}
+
 /// Shades paths on one object, and appends those that go on behind it to `onward`.
 void shade_object(const FrameContext& frame, const Paths& paths, const PixelSums& pixels, RenderCounts& counts,
                   std::vector<SampleView>* views, Layer& onward) {
   ShadingBatch batch;
   batch.time = frame.scene->time_seconds;
   batch.may_defer = pixels.deferred && !paths.layer;
-  const std::uint32_t object = paths.hit(0).object;
   place_hits(frame, paths, batch);
-  if (frame.shading[object]->needs_footprints()) find_footprints(frame, paths, batch);
   batch.lights.resize(frame.scene->lights.size());
   for (std::size_t l = 0; l < batch.lights.size(); ++l)
     light_hits(frame, paths, frame.scene->lights[l], batch, batch.lights[l], counts);
   if (views && !paths.layer) record_views(frame, paths, batch, *views);
 
+  const ObjectShading& shading = *frame.shading[paths.hit(0).object];
   ShadedBatch shaded;
-  frame.shading[object]->shade(batch, shaded, counts);
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    const CameraSample& sample = paths.traced.samples[paths.sample(i)];
-    if (!paths.layer && !record_decision(sample.pixel, shaded.decisions[i], pixels)) continue;
-    add_light(sample, paths.throughput(i) * shaded.radiance.rgb(i), pixels.rgb);
-    const Rgb throughput = paths.throughput(i) * shaded.transmittance.rgb(i);
-    if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
-    Ray ray = paths.ray(i);
-    ray.t_near = paths.hit(i).t + offset_of(frame.scene->objects[object], paths.hit(i).t);
-    onward.sample.push_back(paths.sample(i));
-    onward.throughput.push_back(throughput);
-    onward.rays.push_back(ray);
+  JoinedHits joined = join_paths(frame, paths, batch);
+  if (joined.first.empty()) {
+    if (shading.needs_footprints()) find_footprints(frame, paths, batch);
+    shading.shade(batch, shaded, counts);
+    return receive(frame, paths, shaded, {}, 1, pixels, onward);
   }
+  shading.shade(joined.batch, shaded, counts);
+  take_apart(shading, shaded.decisions, joined);
+  receive(frame, paths, shaded, joined.first, kJoined, pixels, onward);
+  if (joined.single.empty()) return;
+  ShadingBatch singles = select(batch, joined.single);
+  std::vector<std::uint32_t> members;
+  for (const std::uint32_t i : joined.single) members.push_back(paths.members[i]);
+  find_footprints(frame, {paths.traced, paths.layer, members}, singles);
+  shading.shade(singles, shaded, counts);
+  receive(frame, paths, shaded, joined.single, 1, pixels, onward);
 }
 
 /// Shades what the paths `all` of one layer hit; what goes on lands in `onward`.

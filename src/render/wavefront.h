@@ -19,6 +19,7 @@ struct FrameContext {
   std::span<const std::unique_ptr<ObjectShading>> shading;    ///< one an object
   std::span<const std::unique_ptr<ObjectShading>> originals;  ///< the shaders themselves, for pixels handed back
   bool transmits = false;                                     ///< whether any object lets light through
+  float joined_pixels = 0;  ///< side of the squares of samples that are shaded as one where they may be; 0: none
 };
 
 /// Camera samples, their rays and first hits; one entry a sample. `footprints` is empty, or overrides the footprints

@@ -1,7 +1,11 @@
 // The ways to render a scene, whoever renders it.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
+
+#include "base/error.h"
 
 namespace redmap {
 
@@ -14,10 +18,20 @@ enum class Method {
 };
 inline constexpr std::string_view kMethodNames[] = {"original", "supersample", "parameters", "paper", "map"};
 
-/// Rays a pixel for original, parameters and map.
+/// Rays a pixel for original, parameters and map, and how many of their hits are looked up and shaded.
 enum class Quality {
-  kFast,     ///< one, and more at silhouettes, chart seams and occlusions
-  kDefault,  ///< 2 x 2, and more there
+  kFast,      ///< one, and more at silhouettes, chart seams and occlusions
+  kBalanced,  ///< 2 x 2, and more there, shaded as one wherever they see one smooth piece of surface
+  kDefault,   ///< 2 x 2, and more there, each shaded
 };
+inline constexpr std::string_view kQualityNames[] = {"fast", "balanced", "default"};
+inline std::string_view name_of(Quality quality) { return kQualityNames[static_cast<std::size_t>(quality)]; }
+/// Throws Error if there is none of that name.
+inline Quality quality_of(std::string_view name) {
+  const auto found = std::find(std::begin(kQualityNames), std::end(kQualityNames), name);
+  if (found == std::end(kQualityNames))
+    throw Error("quality: expected \"fast\", \"balanced\" or \"default\", found \"{}\"", name);
+  return static_cast<Quality>(found - std::begin(kQualityNames));
+}
 
 }  // namespace redmap

@@ -37,7 +37,8 @@ RenderedPixel PixelRenderer::frame(const PixelCase& pixel, const std::unique_ptr
   options.method = Method::kMap;
   options.quality = quality;
   const Scene scene = scene_of(scene_, pixel);
-  const FrameContext frame = context(scene, shading);
+  FrameContext frame = context(scene, shading);
+  frame.joined_pixels = joined_pixels(options);
   const std::vector<std::uint8_t> by_object(1, supersampled);
   float rgb[3] = {};
   RenderedPixel rendered;

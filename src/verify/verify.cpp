@@ -113,7 +113,7 @@ Certificate certify(const PixelRenderer& renderer, const ReductionMap& map, cons
                     const VerifyOptions& options) {
   Certificate certificate;
   certificate.coverage = static_cast<float>(options.coverage);
-  certificate.quality = options.quality == Quality::kFast ? "fast" : "default";
+  certificate.quality = name_of(options.quality);
   certificate.samples = options.spp;
   certificate.residual = static_cast<float>(report.all.residual);
   for (const ErrorRow& row : report.by_minification)

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bake/bake.h"
 #include "bake/baselines.h"
 #include "base/error.h"
 #include "base/parallel.h"
@@ -98,7 +99,9 @@ TEST(Renderer, LightThroughAHalfTransparentBall_LosesThreeQuarters) {
 TEST(Renderer, AnyNumberOfThreads_GivesTheSameBytes) {
   Scene scene = sphere_scene(make_library_shader("noise"), {1, 1, 1}, 100);
   const auto map = alternating_map(scene.objects[0], kEast, kWest, 256);
-  for (const RenderOptions& options : {with(Method::kMap), with(Method::kSupersample, Quality::kDefault, 5)}) {
+  for (const RenderOptions& options :
+       {with(Method::kMap), with(Method::kMap, Quality::kFast), with(Method::kMap, Quality::kBalanced),
+        with(Method::kSupersample, Quality::kDefault, 5)}) {
     std::vector<float> first;
     for (std::size_t threads : {1, 2, 7}) {
       const ThreadLimit limit(threads);
@@ -113,7 +116,7 @@ TEST(Renderer, MapUnderHalfATexel_IsTheShaderBitForBit) {
   Scene scene = sphere_scene(make_library_shader("checker"), {1, 1, 1}, 96);
   scene.camera.vertical_fov_degrees = 12;  // the rim, where footprints are long, stays outside
   const auto map = alternating_map(scene.objects[0], kEast, kWest, 32);
-  for (Quality quality : {Quality::kFast, Quality::kDefault})
+  for (Quality quality : {Quality::kFast, Quality::kBalanced, Quality::kDefault})
     EXPECT_EQ(render(scene, with(Method::kMap, quality), {map, nullptr, nullptr}).image.data,
               render(scene, with(Method::kOriginal, quality)).image.data);
 }
@@ -130,6 +133,23 @@ TEST(Renderer, MapOfTwoAlternatingBases_IsTheirMeanFarAway) {
   };
   const Image east = only(kEast), west = only(kWest);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(mixed.at(4, 4, c), 0.5f * (east.at(4, 4, c) + west.at(4, 4, c)), 0.005f) << c;
+}
+
+TEST(Renderer, BalancedQuality_ShowsWhatDefaultDoes_ForLessThanHalfOfItsCalls) {
+  const Scene scene = sphere_scene(make_library_shader("checker"), {1, 1, 1}, 64);
+  BakeOptions bake_options;
+  bake_options.size = 512;
+  const auto map =
+      std::make_shared<const ReductionMap>(bake(*scene.objects[0].surface, *scene.objects[0].shader, bake_options));
+  const auto frame = [&](Quality quality) {
+    return render(scene, with(Method::kMap, quality), {map, nullptr, nullptr});
+  };
+  const RenderedFrame balanced = frame(Quality::kBalanced), reference = frame(Quality::kDefault);
+  EXPECT_LT(balanced.counts.shader_calls, reference.counts.shader_calls / 2);
+  double squares = 0;
+  for (std::size_t i = 0; i < balanced.image.data.size(); ++i)
+    squares += std::pow(balanced.image.data[i] - reference.image.data[i], 2);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(balanced.image.data.size())), 0.01);
 }
 
 TEST(Renderer, WhiteMapByThePaper_IsWhite) {
