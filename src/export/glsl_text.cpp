@@ -83,7 +83,8 @@ RedmapHit redmap_seen(vec3 position, vec3 normal, vec3 tangent, vec2 uv, vec3 to
   hit.dn_dv = (ny * hit.duv_dx.x - nx * hit.duv_dy.x) * scale;
   hit.geometric = normalize(cross(px, py));
   if (dot(hit.geometric, to_viewer) < 0.0) hit.geometric = -hit.geometric;
-  hit.turned = dot(hit.geometric, hit.normal) < 0.0;
+  // At an outline derivatives say little about the side: normals that are hardly turned away decide.
+  hit.turned = dot(hit.geometric, hit.normal) < 0.0 && dot(hit.normal, to_viewer) < -0.1;
   if (hit.turned) hit.normal = -hit.normal;
   hit.tangent = redmap_perpendicular(hit.normal, tangent);
   return hit;
