@@ -69,4 +69,32 @@ refuses "precious: expected no such folder" export maps/ball.exr --to ktx2 -o pr
 refuses "found no scene: name it with --scene" export maps/ball.exr --to gltf -o none
 refuses "none.exr" export none.exr --to ktx2 -o none
 [ ! -e none ] && [ -z "$(find . -name '.*.??????')" ] || fail "expected nothing to be left of an export that failed"
+
+# A tile of a mesh whose uv spread over several: the document names them all.
+cp maps/ball.exr maps/ball.1001.exr
+runs export maps/ball.1001.exr --to mtlx -o tile
+[ -s tile/ball.1001.mask01.png ] && grep -qF 'value="ball.&lt;UDIM&gt;.mask01.png"' tile/ball.mtlx ||
+  fail "expected ball.1001.mask01.png, and ball.mtlx naming its pattern, found: $(ls tile)"
+"$tools/python/bin/python" "$source/scripts/export/validate_mtlx.py" tile/ball.mtlx || fail "expected a valid document"
+
+# Killed at any moment, an export leaves the earlier one whole, or is whole itself; interrupted, it also leaves nothing else.
+runs export maps/ball.exr --scene scene.toml --to gltf --materials one -o one
+runs export maps/ball.exr --scene scene.toml --to gltf --materials one -o victim
+for signal in KILL INT; do
+  for delay in 0.03 0.1 0.2 0.3 0.45; do
+    # Python asks for SIGINT anew, which a shell turns off for what it starts in the background.
+    python3 -c '
+import signal, subprocess, sys, time
+export = subprocess.Popen(sys.argv[3:], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+time.sleep(float(sys.argv[2]))
+export.send_signal(getattr(signal, "SIG" + sys.argv[1]))
+export.wait()' $signal $delay "$redmap" export maps/ball.exr --scene scene.toml --to gltf --materials k -o victim
+    diff -r victim one >/dev/null || diff -r victim ball/gltf >/dev/null ||
+      fail "SIG$signal after $delay s: expected a whole export, found: $(ls -a victim)"
+    [ $signal = KILL ] || [ -z "$(find . -name '.victim.*')" ] || fail "SIGINT after $delay s: expected nothing to be left"
+  done
+  rm -rf .victim.*
+  runs export maps/ball.exr --scene scene.toml --to gltf --materials one -o victim
+done
 exit $((failures > 0))
