@@ -43,16 +43,22 @@ SampleGrid trace_grid(const TileJob& job, Tile tile, int n, RenderCounts& counts
   return grid;
 }
 
-/// What tells samples apart: chart, place and normal in the world.
-std::vector<SampleView> view_grid(const FrameContext& frame, const SampleGrid& grid) {
-  std::vector<SampleView> views(grid.traced.samples.size());
+/// What tells samples apart.
+struct SeenPlace {
+  Vec3 position, normal;  ///< world space; the face's normal is as long as its triangle is large
+  float normal_squared = 0;
+  std::uint32_t chart = 0;
+};
+std::vector<SeenPlace> seen_places(const FrameContext& frame, const SampleGrid& grid) {
+  std::vector<SeenPlace> views(grid.traced.samples.size());
   for (std::size_t k = 0; k < views.size(); ++k) {
     const RayHit& hit = grid.traced.hits[k];
     if (hit.object == kNoObject) continue;
     const Ray& ray = grid.traced.rays[k];
-    views[k] = {frame.scene->objects[hit.object].surface->chart(hit.where.primitive), 0,
-                ray.origin + ray.direction * hit.t,
-                frame.tracer->placement(hit.object).direction_world(normalized(hit.geometric_normal))};
+    views[k] = {ray.origin + ray.direction * hit.t,
+                frame.tracer->placement(hit.object).direction_world(hit.geometric_normal),
+                dot(hit.geometric_normal, hit.geometric_normal),
+                frame.scene->objects[hit.object].surface->chart(hit.where.primitive)};
   }
   return views;
 }
@@ -61,25 +67,30 @@ std::vector<SampleView> view_grid(const FrameContext& frame, const SampleGrid& g
 constexpr float kSteep = 0.5f;
 
 /// How two neighbouring samples differ.
-Refine difference(const FrameContext& frame, const SampleGrid& grid, std::span<const SampleView> views, std::size_t a,
+Refine difference(const FrameContext& frame, const SampleGrid& grid, std::span<const SeenPlace> views, std::size_t a,
                   std::size_t b) {
   const RayHit &hit_a = grid.traced.hits[a], &hit_b = grid.traced.hits[b];
   if (hit_a.object != hit_b.object) return Refine::kSilhouette;
-  if (hit_a.object == kNoObject) return Refine::kNo;
+  if (hit_a.object == kNoObject ||
+      (hit_a.where.primitive == hit_b.where.primitive && hit_a.geometric_normal == hit_b.geometric_normal))
+    return Refine::kNo;
   // Occlusion: one lies off the other's tangent plane by more than the distance between samples, and steeply so;
   // a surface that merely curves away from a grazing ray does not.
   const float step = hit_a.t * frame.camera.pixel_angle / static_cast<float>(grid.n);
   const Vec3 across = views[b].position - views[a].position;
-  const float off_plane =
-      std::max(std::abs(dot(across, views[a].geometric_normal)), std::abs(dot(across, views[b].geometric_normal)));
-  if (off_plane > step && off_plane > kSteep * length(across)) return Refine::kSilhouette;
+  const float least = std::max(step * step, kSteep * kSteep * dot(across, across));
+  const auto off_plane = [&](const SeenPlace& seen) {
+    const float off = dot(across, seen.normal);
+    return off * off > least * seen.normal_squared;
+  };
+  if (off_plane(views[a]) || off_plane(views[b])) return Refine::kSilhouette;
   return views[a].chart != views[b].chart ? Refine::kSeam : Refine::kNo;
 }
 
 /// By sample, the dearest reason that it and its neighbours of the same pixel give; of all neighbours, if it is alone
 /// in its pixel.
 std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
-  const std::vector<SampleView> views = view_grid(*job.frame, grid);
+  const std::vector<SeenPlace> views = seen_places(*job.frame, grid);
   std::vector<Refine> reasons(views.size(), Refine::kNo);
   // Whether the sample sees, or may see through glass, an object whose map does not reduce.
   const bool any_supersampled = std::count(job.supersampled->begin(), job.supersampled->end(), 1) > 0;
@@ -140,15 +151,6 @@ int rays_a_side(const RenderOptions& options, bool fixed) {
   return options.quality == Quality::kFast ? 1 : 2;
 }
 
-/// Adds the samples `from` to `to`, and their indices there to `members`: larger batches are cheaper to shade.
-void append(const TracedSamples& from, TracedSamples& to, std::vector<std::uint32_t>& members) {
-  for (std::size_t i = 0; i < from.samples.size(); ++i)
-    members.push_back(static_cast<std::uint32_t>(to.samples.size() + i));
-  to.samples.insert(to.samples.end(), from.samples.begin(), from.samples.end());
-  to.rays.insert(to.rays.end(), from.rays.begin(), from.rays.end());
-  to.hits.insert(to.hits.end(), from.hits.begin(), from.hits.end());
-}
-
 bool all_missed(const SampleGrid& grid) {
   return std::all_of(grid.traced.hits.begin(), grid.traced.hits.end(),
                      [](const RayHit& hit) { return hit.object == kNoObject; });
@@ -187,9 +189,9 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
         for (int j = 0; j < n; ++j)
           for (int i = 0; i < n; ++i) kept.push_back(static_cast<std::uint32_t>(sample(i, j)));
     }
-  trace_samples(*job.frame, refined, counts);
-  append(refined, grid.traced, kept);
+  if (!refined.samples.empty()) trace_samples(*job.frame, refined, counts);
   shade_samples(*job.frame, grid.traced, kept, job.pixels, counts);
+  if (!refined.samples.empty()) shade_samples(*job.frame, refined, job.pixels, counts);
   return counts;
 }
 

@@ -62,11 +62,12 @@ std::vector<std::uint32_t> all_indices(std::size_t count) {
   return indices;
 }
 
-/// `reach`: the largest distance or coordinate that the hit was computed from.
-float offset_of(const Object& object, float reach) {
-  return kRayOffset * 0.5f * length(object.surface->upper() - object.surface->lower()) * object.transform.scale +
-         kRoundings * reach;
+/// Of rays that leave `object`, without what the roundings add.
+float offset_of(const Object& object) {
+  return kRayOffset * 0.5f * length(object.surface->upper() - object.surface->lower()) * object.transform.scale;
 }
+/// `reach`: the largest distance or coordinate that the hit was computed from.
+float offset_of(const Object& object, float reach) { return offset_of(object) + kRoundings * reach; }
 
 /// Places `paths` on their surface, normals turned towards the viewer.
 void place_hits(const FrameContext& frame, const Paths& paths, ShadingBatch& batch) {
@@ -114,6 +115,7 @@ void light_hits(const FrameContext& frame, const Paths& paths, const Light& ligh
   const Placement& placement = frame.tracer->placement(paths.hit(0).object);
   lit.to_light.resize(paths.size());
   lit.irradiance = Planes<3>(paths.size());
+  const float object_offset = offset_of(object);
 
   std::vector<Ray> shadow_rays;
   std::vector<float> widths;
@@ -121,7 +123,7 @@ void light_hits(const FrameContext& frame, const Paths& paths, const Light& ligh
   for (std::uint32_t i = 0; i < paths.size(); ++i) {
     const SurfaceHit& hit = batch.hits[i];
     const Vec3 position = placement.point_world(hit.position);
-    const float offset = offset_of(object, std::max(paths.hit(i).t, length(position)));
+    const float offset = object_offset + kRoundings * std::max(paths.hit(i).t, length(position));
     const bool point = light.type == Light::Type::kPoint;
     const Vec3 path = point ? light.position - position : light.to_light;
     const float distance = point ? length(path) : std::numeric_limits<float>::max();
@@ -199,7 +201,8 @@ void receive(const FrameContext& frame, const Paths& paths, const ShadedBatch& s
 /// Squares of samples shaded as one; empty where the object's shading takes none.
 JoinedHits join_paths(const FrameContext& frame, const Paths& paths, const ShadingBatch& batch) {
   const std::uint32_t object = paths.hit(0).object;
-  if (frame.joined_pixels <= 0 || paths.layer || !paths.traced.footprints.empty()) return {};
+  const float square = 2 * paths.traced.samples[paths.sample(0)].extent;
+  if (square > frame.joined_pixels || paths.layer || !paths.traced.footprints.empty()) return {};
   return join_hits(paths.traced.samples, paths.members, batch, frame.joined_pixels, *frame.shading[object],
                    frame.scene->objects[object].surface->wraps_u());
 }
