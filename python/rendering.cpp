@@ -51,7 +51,8 @@ void bind_rendering(nb::module_& module) {
       "spp"_a = 0, "seed"_a = 0, "frame"_a = 1, "progress"_a = nb::none(),
       fmt::format("A picture of the scene, (height, width, 3) in linear light. `maps`: one an object; without, the "
                   "files that the objects name are read. method: map, original (the shader itself, at the map's "
-                  "rays) or supersample. quality: default (2 x 2 rays a pixel), balanced (2 x 2, shaded as one) or "
+                  "rays) or supersample. quality: default (2 x 2 rays a pixel), balanced (one, more on bends and "
+                  "highlights) or "
                   "fast (one). spp: {}. frame: "
                   "decides the random numbers. progress: told the part done. Raises Error.",
                   doc::RenderOptions_spp)

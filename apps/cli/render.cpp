@@ -238,10 +238,9 @@ void add_render_command(CLI::App& app) {
          "samples. parameters: mip-mapped averaged material parameters. paper: Van Horn and Turk to the letter")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
-  sub->add_option(
-         "--quality", options->quality,
-         "Rays a pixel, more where needed: default (2 x 2), balanced (2 x 2, looked up and shaded as one where "
-         "they see one smooth piece of surface) or fast (1)")
+  sub->add_option("--quality", options->quality,
+                  "Rays a pixel, more where needed: default (2 x 2), balanced (1, more also on bends and around "
+                  "highlights) or fast (1)")
       ->check(CLI::IsMember(quality_names()))
       ->capture_default_str();
   sub->add_option("--show", options->show,

@@ -96,8 +96,8 @@ RenderedFrame Renderer::render(const Scene& scene, int frame) {
 
   if (options_.decisions) result.decisions.resize(result.image.pixels());
 
-  const FrameContext context{&scene,     make_camera_rays(scene.camera), &tracer_, shading_, originals_,
-                             transmits_, joined_pixels(options_)};
+  FrameContext context{&scene, make_camera_rays(scene.camera), &tracer_, shading_, originals_, transmits_};
+  set_quality(options_, context);
   const TileJob job{&context,
                     &options_,
                     &supersampled_,

@@ -18,10 +18,10 @@ inline int tile_size(const RenderOptions& options, int width, int height) {
   return size;
 }
 
-/// Side of the squares of samples that are shaded as one. Half a pixel is what every ray stands for at default quality.
-inline float joined_pixels(const RenderOptions& options) {
-  if (options.method == Method::kPaper) return 0;
-  return options.quality == Quality::kDefault ? 0.5f : 1.0f;
+/// What is shaded as one. Half a pixel is what every ray stands for at default quality.
+inline void set_quality(const RenderOptions& options, FrameContext& frame) {
+  frame.quarters = options.quality == Quality::kBalanced && options.method == Method::kMap;
+  frame.joined_pixels = options.method == Method::kPaper ? 0 : options.quality == Quality::kDefault ? 0.5f : 1.0f;
 }
 
 struct Tile {

@@ -8,7 +8,7 @@ namespace redmap {
 namespace {
 
 /// Why a pixel gets more rays, from the cheapest to the dearest.
-enum class Refine : std::uint8_t { kNo, kSeam, kSilhouette, kSupersample };
+enum class Refine : std::uint8_t { kNo, kBend, kSeam, kSilhouette, kSupersample };
 
 /// The samples of a tile on a regular grid, n x n a pixel. With one sample a pixel there is one more row and column of
 /// samples all around, since a pixel is then told apart from its neighbours instead of within itself.
@@ -65,6 +65,9 @@ std::vector<SeenPlace> seen_places(const FrameContext& frame, const SampleGrid& 
 
 /// Sine of 30 degrees: neighbours seen across a larger angle are on different sheets of the surface.
 constexpr float kSteep = 0.5f;
+/// From this sine on one ray says little of how the surface goes on between neighbours. Bunny at 7 texels a pixel,
+/// balanced: error of stone .93 of that of 16 samples without, .89 from .35, .85 from .2 on.
+constexpr float kBent = 0.2f;
 
 /// How two neighbouring samples differ.
 Refine difference(const FrameContext& frame, const SampleGrid& grid, std::span<const SeenPlace> views, std::size_t a,
@@ -78,13 +81,14 @@ Refine difference(const FrameContext& frame, const SampleGrid& grid, std::span<c
   // a surface that merely curves away from a grazing ray does not.
   const float step = hit_a.t * frame.camera.pixel_angle / static_cast<float>(grid.n);
   const Vec3 across = views[b].position - views[a].position;
-  const float least = std::max(step * step, kSteep * kSteep * dot(across, across));
-  const auto off_plane = [&](const SeenPlace& seen) {
+  const auto off_plane_squared = [&](const SeenPlace& seen) {
     const float off = dot(across, seen.normal);
-    return off * off > least * seen.normal_squared;
+    return off * off / seen.normal_squared;
   };
-  if (off_plane(views[a]) || off_plane(views[b])) return Refine::kSilhouette;
-  return views[a].chart != views[b].chart ? Refine::kSeam : Refine::kNo;
+  const float off = std::max(off_plane_squared(views[a]), off_plane_squared(views[b])), apart = dot(across, across);
+  if (off > step * step && off > kSteep * kSteep * apart) return Refine::kSilhouette;
+  if (views[a].chart != views[b].chart) return Refine::kSeam;
+  return off > kBent * kBent * apart ? Refine::kBend : Refine::kNo;
 }
 
 /// By sample, the dearest reason that it and its neighbours of the same pixel give; of all neighbours, if it is alone
@@ -121,6 +125,8 @@ std::vector<Refine> find_reasons(const TileJob& job, const SampleGrid& grid) {
 /// Rays a side of a refined pixel.
 int refined_rays(Refine reason, Quality quality) {
   switch (reason) {
+    case Refine::kBend:
+      return quality == Quality::kBalanced ? 2 : 0;
     case Refine::kSeam:
       return quality == Quality::kDefault ? 3 : 2;
     case Refine::kSilhouette:
@@ -148,7 +154,17 @@ void append_squares(std::uint32_t pixel, int image_width, int n, std::vector<Cam
 /// Rays a side of every pixel before refinement; original may ask for a fixed number.
 int rays_a_side(const RenderOptions& options, bool fixed) {
   if (fixed) return strata_of(options.spp).rows;
-  return options.quality == Quality::kFast ? 1 : 2;
+  return options.quality == Quality::kDefault ? 2 : 1;
+}
+
+/// Samples `pixels` anew: 2 x 2 rays, each shaded.
+void sample_apart(const TileJob& job, std::span<const std::uint32_t> pixels, RenderCounts& counts) {
+  FrameContext each = *job.frame;
+  each.joined_pixels = 0;
+  TracedSamples traced;
+  for (const std::uint32_t pixel : pixels) append_squares(pixel, job.image_width, 2, traced.samples);
+  trace_samples(each, traced, counts);
+  shade_samples(each, traced, job.pixels, counts);
 }
 
 bool all_missed(const SampleGrid& grid) {
@@ -190,7 +206,11 @@ RenderCounts render_grid(const TileJob& job, Tile tile) {
           for (int i = 0; i < n; ++i) kept.push_back(static_cast<std::uint32_t>(sample(i, j)));
     }
   if (!refined.samples.empty()) trace_samples(*job.frame, refined, counts);
-  shade_samples(*job.frame, grid.traced, kept, job.pixels, counts);
+  PixelSums pixels = job.pixels;
+  std::vector<std::uint32_t> apart;
+  if (options.quality == Quality::kBalanced) pixels.apart = &apart;
+  shade_samples(*job.frame, grid.traced, kept, pixels, counts);
+  if (!apart.empty()) sample_apart(job, apart, counts);
   if (!refined.samples.empty()) shade_samples(*job.frame, refined, job.pixels, counts);
   return counts;
 }

@@ -186,6 +186,10 @@ void receive(const FrameContext& frame, const Paths& paths, const ShadedBatch& s
     if (path == kTakenApart) continue;
     const CameraSample& sample = paths.traced.samples[paths.sample(path)];
     if (!paths.layer && !record_decision(sample.pixel, shaded.decisions[i], pixels)) continue;
+    if (pixels.apart && !paths.layer && frame.shading[paths.hit(path).object]->takes_apart(shaded.decisions[i])) {
+      pixels.apart->push_back(sample.pixel);
+      continue;
+    }
     add_light(sample, paths.throughput(path) * shaded.radiance.rgb(i) * stands_for, pixels.rgb);
     const Rgb throughput = paths.throughput(path) * shaded.transmittance.rgb(i);
     if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
@@ -207,6 +211,14 @@ JoinedHits join_paths(const FrameContext& frame, const Paths& paths, const Shadi
                    frame.scene->objects[object].surface->wraps_u());
 }
 
+/// Where the quarters of each footprint are, as if they were joined hits.
+void quarter_footprints(ShadingBatch& batch) {
+  for (const Footprint& f : batch.footprints) {
+    const Vec2 x = f.duv_dx * 0.25f, y = f.duv_dy * 0.25f;
+    batch.parts.push_back({f.uv - x - y, f.uv + x - y, f.uv - x + y, f.uv + x + y});
+  }
+}
+
 /// Shades paths on one object, and appends those that go on behind it to `onward`.
 void shade_object(const FrameContext& frame, const Paths& paths, const PixelSums& pixels, RenderCounts& counts,
                   std::vector<SampleView>* views, Layer& onward) {
@@ -224,6 +236,7 @@ void shade_object(const FrameContext& frame, const Paths& paths, const PixelSums
   JoinedHits joined = join_paths(frame, paths, batch);
   if (joined.first.empty()) {
     if (shading.needs_footprints()) find_footprints(frame, paths, batch);
+    if (frame.quarters && !paths.layer && paths.traced.samples[paths.sample(0)].extent == 1) quarter_footprints(batch);
     shading.shade(batch, shaded, counts);
     return receive(frame, paths, shaded, {}, 1, pixels, onward);
   }

@@ -19,6 +19,7 @@ struct FrameContext {
   std::span<const std::unique_ptr<ObjectShading>> shading;    ///< one an object
   std::span<const std::unique_ptr<ObjectShading>> originals;  ///< the shaders themselves, for pixels handed back
   bool transmits = false;                                     ///< whether any object lets light through
+  bool quarters = false;    ///< whether samples of whole pixels are looked up as the mean of four quarters
   float joined_pixels = 0;  ///< side of the squares of samples that are shaded as one where they may be; 0: none
 };
 
@@ -38,6 +39,8 @@ struct PixelSums {
   float* rgb;                     ///< three floats a pixel
   Decision* decisions = nullptr;  ///< raised to the dearest decision of a first hit; null: not recorded
   std::vector<std::uint32_t>* deferred = nullptr;  ///< pixels whose sample is to be replaced; null: none may be
+  std::vector<std::uint32_t>* apart = nullptr;  ///< pixels that had better be sampled 2 x 2, and were left out; null:
+                                                ///< none may be
 };
 
 /// What the first hit of a sample saw, for telling pixels apart.

@@ -21,8 +21,8 @@ inline constexpr std::string_view kMethodNames[] = {"original", "supersample", "
 /// Rays a pixel for original, parameters and map, and how many of their hits are looked up and shaded.
 enum class Quality {
   kFast,      ///< one, and more at silhouettes, chart seams and occlusions
-  kBalanced,  ///< 2 x 2, and more there, shaded as one wherever they see one smooth piece of surface
-  kDefault,   ///< 2 x 2, and more there, each shaded
+  kBalanced,  ///< one, looked up in quarters, and more there, where the surface bends, and around highlights
+  kDefault,   ///< 2 x 2, and more there
 };
 inline constexpr std::string_view kQualityNames[] = {"fast", "balanced", "default"};
 inline std::string_view name_of(Quality quality) { return kQualityNames[static_cast<std::size_t>(quality)]; }

@@ -38,7 +38,7 @@ RenderedPixel PixelRenderer::frame(const PixelCase& pixel, const std::unique_ptr
   options.quality = quality;
   const Scene scene = scene_of(scene_, pixel);
   FrameContext frame = context(scene, shading);
-  frame.joined_pixels = joined_pixels(options);
+  set_quality(options, frame);
   const std::vector<std::uint8_t> by_object(1, supersampled);
   float rgb[3] = {};
   RenderedPixel rendered;
