@@ -1,7 +1,7 @@
 """A MaterialX document becomes one of redmap's shaders: GLSL by MaterialX's own generator, put into the contract of
 docs/bring_your_shader.md.
 
-usage: materialx.py FILE
+usage: materialx.py FILE[#MATERIAL]
 
 Prints JSON: {"text": the shader, "images": {sampler: file}}, or {"error": one line}. The library runs this text with
 `python3 -c`, so that the program needs no Python of its own.
@@ -78,8 +78,8 @@ class Unsupported(Exception):
     """What cannot be done, in one line."""
 
 
-def load(path):
-    """The document and its one material."""
+def load(path, name=""):
+    """The document and its material of that name, or its one material."""
     import MaterialX as mx
 
     libraries = mx.createDocument()
@@ -91,10 +91,14 @@ def load(path):
     if not valid:
         raise Unsupported(message)
     materials = document.getMaterialNodes()
-    if len(materials) != 1:
-        names = ", ".join(material.getName() for material in materials)
-        raise Unsupported(f"expected one material, found {names or 'none'}")
-    return document, libraries, materials[0]
+    names = ", ".join(material.getName() for material in materials)
+    if not name and len(materials) != 1:
+        choice = f": choose with {os.path.basename(path)}#NAME" if materials else ""
+        raise Unsupported(f"expected one material, found {names or 'none'}{choice}")
+    for material in materials:
+        if name in ("", material.getName()):
+            return document, libraries, material
+    raise Unsupported(f"expected a material '{name}', found {names or 'none'}")
 
 
 def converters(generator, libraries):
@@ -387,7 +391,8 @@ def files_of(document, samplers, path):
 
 def translate(path: str) -> tuple[str, dict[str, str]]:
     """The shader's text and the files of its images. Raises Unsupported."""
-    document, libraries, material = load(path)
+    path, _, name = path.partition("#") if ".mtlx#" in path else (path, "", "")
+    document, libraries, material = load(path, name)
     text = Text(generate(libraries, material), path)
     call = SurfaceCall(text)
     head = (f"// {material.getName()}, a MaterialX material.\nstruct Parameters {{\n"

@@ -88,14 +88,22 @@ struct FileVersion {
 
 }  // namespace
 
-bool is_materialx(const std::filesystem::path& file) { return file.extension() == ".mtlx"; }
+std::filesystem::path materialx_document(const std::filesystem::path& file) {
+  constexpr std::string_view kEnd = ".mtlx";
+  const std::string text = file.string();
+  const std::size_t name = text.rfind(std::string(kEnd) + "#");
+  return name == std::string::npos ? file : std::filesystem::path(text.substr(0, name + kEnd.size()));
+}
+
+bool is_materialx(const std::filesystem::path& file) { return materialx_document(file).extension() == ".mtlx"; }
 
 MaterialxShader translate_materialx(const std::filesystem::path& file) {
   static std::mutex mutex;
   static std::map<std::filesystem::path, std::pair<FileVersion, MaterialxShader>> translated;
   const std::scoped_lock lock(mutex);
   const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-  const FileVersion version{std::filesystem::last_write_time(path), std::filesystem::file_size(path)};
+  const std::filesystem::path document = materialx_document(path);
+  const FileVersion version{std::filesystem::last_write_time(document), std::filesystem::file_size(document)};
   const auto known = translated.find(path);
   if (known != translated.end() && known->second.first == version) return known->second.second;
   MaterialxShader shader = translate(file.lexically_normal().string());

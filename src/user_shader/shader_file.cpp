@@ -22,7 +22,7 @@ ShaderSource read_include(const std::string& name, const std::string& includer, 
 }  // namespace
 
 ShaderSources read_shader_sources(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file))
+  if (!std::filesystem::is_regular_file(materialx_document(file)))
     throw Error("{}: expected a shader file, found none", file.lexically_normal().string());
   const std::string name = file.lexically_normal().string();
   if (is_materialx(file)) return resolve_sources({name + ", as GLSL", translate_materialx(file).text}, read_include);

@@ -37,6 +37,22 @@ def test_dull_paint_is_lambert(tmp_path: Path) -> None:
     assert np.abs(found - expected).max() < 1e-5
 
 
+def test_one_of_several_materials_is_chosen_by_name(tmp_path: Path) -> None:
+    color = '<input name="base_color" type="color3" value="%s" />'
+    other = (DULL % color % "0, 1, 0").replace('"surface"', '"green"')
+    second = """<surfacematerial name="Leaf" type="material">
+  <input name="surfaceshader" type="surfaceshader" nodename="green" /></surfacematerial>"""
+    file = document(tmp_path, DULL % color % "1, 0, 0" + other + second)
+    straight = floats([[0, 0, 1]])
+    for name, expected in (("Paint", [1, 0, 0]), ("Leaf", [0, 1, 0])):
+        shader = redmap.shader(f"{file}#{name}")
+        assert shader.summary == f"{name}, a MaterialX material."
+        found = shader.radiance(straight, straight, straight, straight)
+        assert np.abs(found - floats([expected]) / np.pi).max() < 1e-5
+    with pytest.raises(redmap.Error, match="expected a material 'Bark', found"):
+        redmap.shader(f"{file}#Bark")
+
+
 def test_slopes_of_heights_turn_the_normal(tmp_path: Path) -> None:
     # MaterialX scales slopes over uv by 1/16: this height rises by one a unit of u.
     body = """<texcoord name="uv" type="vector2" />
@@ -100,7 +116,7 @@ def test_only_what_varies_is_stored() -> None:
     ("body", "complaint"),
     [
         ("<checkerboard", "paint.mtlx: "),
-        (DULL % "" + '<surfacematerial name="Second" type="material" />', "expected one material, found Second, Paint"),
+        (DULL % "" + '<surfacematerial name="Second" type="material" />', "expected one material, found Second, Paint: choose with paint.mtlx#NAME"),
         ('<geomcolor name="painted" type="color3" />' + DULL % '<input name="base_color" type="color3" nodename="painted" />',
          "expected positions, normals, tangents and the first uv of the surface, found 'color_0'"),
         ('<image name="wood" type="color3"><input name="file" type="filename" value="wood.png" /></image>'
