@@ -55,6 +55,11 @@ PageServer::PageServer(const fs::path& folder, int port) : impl_(std::make_uniqu
   httplib::Server& server = impl_->server;
   server.Get(
       ".*", [this](const httplib::Request& request, httplib::Response& response) { impl_->answer(request, response); });
+  // The library's own options let two programs share a port.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
   impl_->port = port == 0 ? server.bind_to_any_port(kHost) : server.bind_to_port(kHost, port) ? port : -1;
   if (impl_->port < 0) throw Error("view --web: expected port {} of {} to be free, found it in use", port, kHost);
 }
