@@ -43,7 +43,12 @@ struct PageServer::Impl {
     }
     // Another scene may stand at the same address next time.
     response.set_header("Cache-Control", "no-store");
-    response.set_content(read_file(found->second), content_type(found->second));
+    // By a provider, since texts would be packed anew for each answer, which takes longer than they do.
+    const auto bytes = std::make_shared<const std::string>(read_file(found->second));
+    response.set_content_provider(bytes->size(), content_type(found->second),
+                                  [bytes](std::size_t from, std::size_t count, httplib::DataSink& sink) {
+                                    return sink.write(bytes->data() + from, count);
+                                  });
   }
 };
 

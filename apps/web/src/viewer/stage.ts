@@ -101,6 +101,7 @@ export class Stage {
         onProgress(parts.reduce((sum, part) => sum + part, 0) / parts.length);
       });
     const all = await Promise.all(this.description.objects.map(({ folder }, i) => load(folder, i)));
+    performance.mark('redmap-loaded');
     all.forEach((exported, i) => this.#add(this.description.objects[i]!, exported));
     const spheres = this.objects.map(({ mesh }) => mesh.geometry.boundingSphere!);
     this.bounds = boundsOf(
