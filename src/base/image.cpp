@@ -36,7 +36,8 @@ Image read_image(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) throw Error("{}: no such picture", path.string());
   if (path.extension() == ".exr") return read_exr(path);
   if (path.extension() == ".png") return read_png(path);
-  throw Error("{}: expected a picture that ends in .exr or .png", path.string());
+  if (path.extension() == ".jpg" || path.extension() == ".jpeg") return read_jpeg(path);
+  throw Error("{}: expected a picture that ends in .exr, .png or .jpg", path.string());
 }
 
 void write_image(const Image& image, const std::filesystem::path& path, ExrPrecision precision) {

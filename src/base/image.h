@@ -50,8 +50,8 @@ enum class ExrPrecision {
 
 /// Reads `path` by its extension. `.exr`: the data window of the first part, finest level, scan lines or tiles;
 /// channels R, G, B and A where there is an R, G or B, else Y and A, else all of them with their names. `.png`: 8 or 16
-/// bits; colour to linear light, alpha as it is. Throws Error on a missing, truncated, damaged, unsupported or absurdly
-/// large file (over 2^29 values).
+/// bits, `.jpg` and `.jpeg`: 8; colour to linear light, alpha as it is. Throws Error on a missing, truncated, damaged,
+/// unsupported or absurdly large file (over 2^29 values).
 Image read_image(const std::filesystem::path& path);
 
 /// Writes `path` by its extension, atomically. `.png`: 1 to 4 channels, 8 bits, clamped to [0, 1], NaN as 0, no

@@ -1,4 +1,4 @@
-// The two picture formats behind image.h; not part of the public interface.
+// The picture formats behind image.h; not part of the public interface.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +18,7 @@ std::vector<std::string> channel_names_of(const Image& image, const std::filesys
 Image read_exr(const std::filesystem::path& path);
 void write_exr(const Image& image, const std::filesystem::path& path, ExrPrecision precision);
 Image read_png(const std::filesystem::path& path);
+Image read_jpeg(const std::filesystem::path& path);
 void write_png(const Image& image, const std::filesystem::path& path);
 
 }  // namespace redmap

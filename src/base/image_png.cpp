@@ -1,4 +1,4 @@
-// PNG pictures through stb: 8 or 16 bits in, 8 bits out, colour through the sRGB transfer function.
+// PNG and JPEG pictures through stb: 8 or 16 bits in, 8 bits out as PNG, colour through the sRGB transfer function.
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
@@ -38,22 +38,15 @@ long long read_big_endian(const stbi_uc* bytes) {
   return (static_cast<long long>(bytes[0]) << 24) | (bytes[1] << 16) | (bytes[2] << 8) | bytes[3];
 }
 
-}  // namespace
-
-Image read_png(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path);
+/// What stb makes of the bytes of a file, of the format `kind`.
+Image decode(const std::filesystem::path& path, const std::string& bytes, const char* kind) {
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const auto fail = [&] {
-    return Error("{}: cannot be read as a PNG picture, it is truncated or damaged: {}", path.string(),
+    return Error("{}: cannot be read as a {} picture, it is truncated or damaged: {}", path.string(), kind,
                  stbi_failure_reason());
   };
-  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
-  if (!bytes.starts_with(kSignature)) throw Error("{}: expected a PNG picture, found something else", path.string());
-  // The header stands first: 8 bytes of signature, 8 of chunk, then width and height.
-  if (bytes.size() < 24) throw Error("{}: the file is truncated", path.string());
-  require_sane_size(path, read_big_endian(data + 16), read_big_endian(data + 20), 1);
   // stb counts bytes in int.
-  if (bytes.size() > INT32_MAX) throw Error("{}: expected a PNG file under 2 GiB", path.string());
+  if (bytes.size() > INT32_MAX) throw Error("{}: expected a {} file under 2 GiB", path.string(), kind);
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (!stbi_info_from_memory(data, size, &width, &height, &channels)) throw fail();
@@ -68,6 +61,31 @@ Image read_png(const std::filesystem::path& path) {
   const std::unique_ptr<stbi_uc, FreePixels> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 0));
   if (!pixels) throw fail();
   return to_linear(pixels.get(), width, height, channels, 255);
+}
+
+}  // namespace
+
+Image read_png(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  if (!bytes.starts_with(kSignature)) throw Error("{}: expected a PNG picture, found something else", path.string());
+  // The header stands first: 8 bytes of signature, 8 of chunk, then width and height.
+  if (bytes.size() < 24) throw Error("{}: the file is truncated", path.string());
+  const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+  require_sane_size(path, read_big_endian(data + 16), read_big_endian(data + 20), 1);
+  return decode(path, bytes, "PNG");
+}
+
+Image read_jpeg(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  constexpr std::string_view kBegin = "\xff\xd8\xff", kEnd = "\xff\xd9";
+  if (!bytes.starts_with(kBegin)) throw Error("{}: expected a JPEG picture, found something else", path.string());
+  // stb paints what is missing grey. Some cameras write a little behind the end.
+  constexpr std::size_t kMostBehind = 1024;
+  const std::size_t end = bytes.rfind(kEnd);
+  if (end == std::string::npos || end + kMostBehind < bytes.size())
+    throw Error("{}: the file is truncated", path.string());
+  return decode(path, bytes, "JPEG");
 }
 
 std::string encode_png(const Image& image) {

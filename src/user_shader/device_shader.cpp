@@ -34,7 +34,7 @@ RedmapPlace redmap_framed(Surface redmap_at, vec3 redmap_n, vec3 redmap_t) {
 
 Image read_shader_image(const ShaderImageInfo& info) {
   Image image = read_image(info.file);
-  if (info.is_data && info.file.extension() == ".png")
+  if (info.is_data && info.file.extension() != ".exr")
     for (int c = 0; c < std::min(image.channels, 3); ++c)
       for (std::size_t i = c; i < image.data.size(); i += image.channels) image.data[i] = linear_to_srgb(image.data[i]);
   return image;

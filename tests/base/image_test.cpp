@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
+#include <stb/stb_image_write.h>
 
 #include <limits>
 
@@ -175,6 +176,34 @@ TEST(Image, MissingFilesAndUnknownExtensions_SayWhichFile) {
   EXPECT_THROW(write_image(Image(1, 1, 5), folder / "five.png"), Error);
   EXPECT_THROW(write_image(Image(), folder / "empty.exr"), Error);
   EXPECT_EQ(folder.entries(), 1u);
+}
+
+std::string grey_jpeg(int value) {
+  const std::vector<unsigned char> pixels(16 * 24 * 3, static_cast<unsigned char>(value));
+  std::string bytes;
+  const auto append = [](void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
+  stbi_write_jpg_to_func(append, &bytes, 16, 24, 3, pixels.data(), 90);
+  return bytes;
+}
+
+TEST(Image, GreyOfAJpeg_IsLinearLight) {
+  const TemporaryFolder folder;
+  write_file(folder / "grey.jpg", grey_jpeg(188));  // half of the light
+  const Image image = read_image(folder / "grey.jpg");
+  EXPECT_EQ(image.width, 16);
+  EXPECT_EQ(image.height, 24);
+  for (float value : image.data) EXPECT_NEAR(value, 0.5f, 0.01f);
+}
+
+TEST(Image, TruncatedJpeg_IsAnErrorThatNamesTheFile) {
+  const TemporaryFolder folder;
+  const std::string whole = grey_jpeg(100);
+  for (std::size_t length = 0; length < whole.size(); length += 7) {
+    write_file(folder / "cut.jpg", whole.substr(0, length));
+    EXPECT_TRUE(says(error_of_reading(folder / "cut.jpg"), "cut.jpg")) << length << " of " << whole.size() << " bytes";
+  }
 }
 
 class HostileImage : public testing::TestWithParam<const char*> {};
