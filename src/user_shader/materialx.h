@@ -19,9 +19,9 @@ struct MaterialxShader {
 std::filesystem::path materialx_document(const std::filesystem::path& file);
 bool is_materialx(const std::filesystem::path& file);
 
-/// The shader of the material in `file`, of the one that it names or of the only one. The program $REDMAP_PYTHON, or else python3, is asked once for every
-/// version of the file. Throws Error naming the file and what is not supported, and where there is no Python with
-/// MaterialX.
+/// The shader of the material in `file`, of the one that it names or of the only one. The program $REDMAP_PYTHON, or
+/// else python3, is asked once for every version of the file. Throws Error naming the file and what is not supported,
+/// and where there is no Python with MaterialX.
 MaterialxShader translate_materialx(const std::filesystem::path& file);
 
 }  // namespace redmap
