@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <fstream>
+#include <optional>
+#include <string_view>
 
 #include "base/error.h"
 
@@ -14,6 +16,49 @@ constexpr std::streamoff kStart = 8;
 constexpr std::uint32_t kSeveralParts = 1u << 12;
 /// Names and types have at most 255 characters and a zero.
 constexpr std::streamsize kLongestName = 256;
+/// The lines of one chunk, at most (DWAB compression), and what a chunk has in the table of offsets.
+constexpr std::int64_t kMostLines = 256, kOffsetBytes = 8;
+
+struct Window {
+  std::int32_t x0, y0, x1, y1;
+};
+/// Pixels that a chunk may have in any file, and in addition for each of its bytes: twice what deflating can do.
+constexpr std::int64_t kSomePixels = 1 << 24, kPixelsAByte = 2048;
+/// What the sizes of a part's table of offsets and of its chunks are computed from.
+struct PartSize {
+  std::optional<Window> window;
+  struct {
+    std::uint32_t width, height;
+  } tile{0, 0};
+};
+
+std::int64_t parts_of(std::int64_t whole, std::int64_t part) { return (whole + part - 1) / part; }
+
+/// OpenEXR makes room for the table and for chunks before it reads them.
+void require_chunks_in_file(const std::filesystem::path& path, const PartSize& part, std::streamoff size) {
+  if (!part.window) return;
+  const std::int64_t width = std::int64_t{part.window->x1} - part.window->x0 + 1;
+  const std::int64_t height = std::int64_t{part.window->y1} - part.window->y0 + 1;
+  if (width < 1 || height < 1)
+    throw Error("{}: expected a sound OpenEXR file, found a picture of {} x {} pixels", path.string(), width, height);
+  const bool tiled = part.tile.width > 0 && part.tile.height > 0;
+  const std::int64_t chunk_width = tiled ? part.tile.width : width,
+                     chunk_height = tiled ? part.tile.height : kMostLines;
+  const std::int64_t columns = parts_of(width, chunk_width), rows = parts_of(height, chunk_height);
+  const std::int64_t most_pixels = kSomePixels + kPixelsAByte * size;
+  if (columns > size / kOffsetBytes / rows || chunk_width > most_pixels / chunk_height)
+    throw Error("{}: expected a sound OpenEXR file, found {} x {} chunks of {} x {} pixels in a file of {} bytes",
+                path.string(), columns, rows, chunk_width, chunk_height, size);
+}
+
+/// Reads an attribute that tells the size of a part; others are passed over.
+void read_size(std::string_view name, std::uint32_t bytes, std::ifstream& file, PartSize& part) {
+  const std::streamoff next = file.tellg() + std::streamoff{bytes};
+  if (name == "dataWindow" && bytes == sizeof(Window))
+    file.read(reinterpret_cast<char*>(&part.window.emplace()), sizeof(Window));
+  if (name == "tiles" && bytes > sizeof part.tile) file.read(reinterpret_cast<char*>(&part.tile), sizeof part.tile);
+  file.seekg(next);
+}
 
 }  // namespace
 
@@ -25,10 +70,12 @@ void require_sane_exr_header(const std::filesystem::path& path) {
   file.read(reinterpret_cast<char*>(&version), sizeof version);
   // A header ends with an empty name; the headers of several parts end with an empty one.
   char name[kLongestName], type[kLongestName];
+  PartSize part;
   for (bool at_start = true; file.getline(name, kLongestName, '\0');) {
     if (name[0] == '\0') {
+      require_chunks_in_file(path, part, size);
       if (at_start || !(version & kSeveralParts)) return;
-      at_start = true;
+      at_start = true, part = {};
       continue;
     }
     at_start = false;
@@ -38,7 +85,7 @@ void require_sane_exr_header(const std::filesystem::path& path) {
     if (bytes > size - file.tellg())
       throw Error("{}: expected a sound OpenEXR file, found an attribute of {} bytes in a file of {}", path.string(),
                   bytes, size);
-    file.seekg(bytes, std::ios::cur);
+    read_size(name, bytes, file, part);
   }
 }
 

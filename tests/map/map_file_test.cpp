@@ -257,6 +257,24 @@ TEST(MapFile, AttributeThatClaimsMoreThanTheFile_IsRefusedBeforeItIsAllocated) {
   expect_refused(path, "attribute of 21");
 }
 
+TEST(MapFile, PixelsThatCannotBeInTheFile_AreRefusedBeforeTheyAreAllocated) {
+  const TemporaryFolder folder;
+  const auto path = folder / "map.exr";
+  write_map(path, random_map({16, 8}, 2));
+  const std::string bytes = read_file(path);
+  const std::size_t window = bytes.find("dataWindow\0box2i\0"s) + 21, tiles = bytes.find("tiles\0tiledesc\0"s) + 19;
+  ASSERT_LT(std::max(window, tiles), bytes.size());
+  const auto refused_with = [&](std::size_t at, char byte, const std::string& found) {
+    std::string hostile = bytes;
+    hostile[at] = byte;
+    write_file(path, hostile);
+    expect_refused(path, found);
+  };
+  refused_with(window + 2, 1, "a picture of -");                // left edge far to the right
+  refused_with(window + 8 + 3, 0x7F, " chunks of ");            // right edge at 2^31
+  refused_with(tiles + 3, 0x40, "1 x 1 chunks of 1073741888");  // tiles a billion wide
+}
+
 TEST(MapFile, ForeignFiles_AreNamedForWhatTheyAre) {
   const TemporaryFolder folder;
   const auto path = folder / "map.exr";
