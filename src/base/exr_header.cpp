@@ -4,6 +4,7 @@
 #include <fstream>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 
@@ -51,6 +52,47 @@ void require_chunks_in_file(const std::filesystem::path& path, const PartSize& p
                 path.string(), columns, rows, chunk_width, chunk_height, size);
 }
 
+/// Types of attributes that always have the same size, which is what OpenEXR reads of them, whatever they claim.
+constexpr std::pair<std::string_view, std::uint32_t> kSizes[] = {
+    {"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+    {"compression", 1}, {"double", 8},   {"envmap", 1},
+    {"float", 4},       {"int", 4},      {"keycode", 28},
+    {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+    {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+    {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+    {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+    {"v3f", 12},        {"v3d", 24}};
+
+/// The bytes that OpenEXR takes for an attribute at the file's position.
+std::streamoff bytes_read(std::string_view type, std::uint32_t bytes, std::ifstream& file) {
+  for (const auto& [known, size] : kSizes)
+    if (type == known) return size;
+  const std::streamoff start = file.tellg();
+  if (type == "chlist") {
+    constexpr std::streamoff kChannelBytes = 16;
+    for (char name[kLongestName]; file.getline(name, kLongestName, '\0') && name[0] != '\0';)
+      file.seekg(kChannelBytes, std::ios::cur);
+    return file ? std::streamoff{file.tellg() - start} : -1;
+  }
+  if (type == "preview") {
+    std::uint32_t sides[2] = {};
+    file.read(reinterpret_cast<char*>(sides), sizeof sides);
+    return sides[1] == 0 || sides[0] < (1u << 30) / sides[1]
+               ? static_cast<std::streamoff>(sizeof sides + std::size_t{4} * sides[0] * sides[1])
+               : -1;
+  }
+  return bytes;
+}
+
+void require_size(const std::filesystem::path& path, std::string_view name, std::string_view type, std::uint32_t bytes,
+                  std::ifstream& file) {
+  const std::streamoff start = file.tellg(), read = bytes_read(type, bytes, file);
+  if (read != std::streamoff{bytes})
+    throw Error("{}: expected a sound OpenEXR file, found '{}' of type {} in {} bytes", path.string(), name, type,
+                bytes);
+  file.seekg(start);
+}
+
 /// Reads an attribute that tells the size of a part; others are passed over.
 void read_size(std::string_view name, std::uint32_t bytes, std::ifstream& file, PartSize& part) {
   const std::streamoff next = file.tellg() + std::streamoff{bytes};
@@ -85,6 +127,7 @@ void require_sane_exr_header(const std::filesystem::path& path) {
     if (bytes > size - file.tellg())
       throw Error("{}: expected a sound OpenEXR file, found an attribute of {} bytes in a file of {}", path.string(),
                   bytes, size);
+    require_size(path, name, type, bytes, file);
     read_size(name, bytes, file, part);
   }
 }

@@ -6,8 +6,8 @@
 
 namespace redmap {
 
-/// Throws Error naming `path` where an attribute claims more bytes than the file has, or its pixels more chunks, or
-/// larger ones, than can be in it. All else that may be wrong is left for OpenEXR to say.
+/// Throws Error naming `path` where an attribute claims more bytes than the file has or others than its type, or pixels
+/// more chunks, or larger ones, than can be in it. All else that may be wrong is left for OpenEXR to say.
 void require_sane_exr_header(const std::filesystem::path& path);
 
 }  // namespace redmap

@@ -270,9 +270,10 @@ TEST(MapFile, PixelsThatCannotBeInTheFile_AreRefusedBeforeTheyAreAllocated) {
     write_file(path, hostile);
     expect_refused(path, found);
   };
-  refused_with(window + 2, 1, "a picture of -");                // left edge far to the right
-  refused_with(window + 8 + 3, 0x7F, " chunks of ");            // right edge at 2^31
-  refused_with(tiles + 3, 0x40, "1 x 1 chunks of 1073741888");  // tiles a billion wide
+  refused_with(bytes.find("chlist\0"s) + 7, 48, "of type chlist in 48 bytes");  // ends before its channels do
+  refused_with(window + 2, 1, "a picture of -");                                // left edge far to the right
+  refused_with(window + 8 + 3, 0x7F, " chunks of ");                            // right edge at 2^31
+  refused_with(tiles + 3, 0x40, "1 x 1 chunks of 1073741888");                  // tiles a billion wide
 }
 
 TEST(MapFile, ForeignFiles_AreNamedForWhatTheyAre) {
