@@ -131,12 +131,7 @@ void add_rows(const PaperTexture& paper, const Rotation& r, std::vector<Table>& 
 }
 
 Rotation measure_rotation(Laboratory& laboratory, const PaperTexture& paper, const std::function<void(double)>& step) {
-  const std::vector<NamedMethod> methods{samples_method(1),
-                                         samples_method(16),
-                                         paper_method(),
-                                         map_method(Quality::kFast),
-                                         map_method(Quality::kBalanced),
-                                         map_method(Quality::kDefault)};
+  const std::vector<NamedMethod> methods = compared_methods();
   const BakedTexture texture = laboratory.baked(paper.object, paper.shader);
   Rotation rotation;
   Scene scene;

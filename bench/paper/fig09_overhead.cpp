@@ -70,12 +70,7 @@ Figure measure_fig9(Laboratory& laboratory) {
                {"ratio_balanced", "/ map, balanced"},
                {"ratio_map", "/ map"}},
               {}};
-  const std::vector<NamedMethod> methods{samples_method(1),
-                                         samples_method(16),
-                                         paper_method(),
-                                         map_method(Quality::kFast),
-                                         map_method(Quality::kBalanced),
-                                         map_method(Quality::kDefault)};
+  const std::vector<NamedMethod> methods = compared_methods();
   double least = 1e9, done = 0;
   for (const PaperRow& paper : kPaperRows) {
     const BakedTexture texture = white_texture(laboratory, paper.object, paper.basis);

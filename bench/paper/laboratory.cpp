@@ -98,6 +98,15 @@ NamedMethod map_method(Quality quality) {
   return method;
 }
 
+std::vector<NamedMethod> compared_methods() {
+  return {samples_method(1),
+          samples_method(16),
+          paper_method(),
+          map_method(Quality::kFast),
+          map_method(Quality::kBalanced),
+          map_method(Quality::kDefault)};
+}
+
 NamedMethod parameters_method() {
   NamedMethod method{"parameters", "averaged parameters", {}};
   method.options.method = Method::kParameters;

@@ -85,6 +85,8 @@ struct NamedMethod {
 NamedMethod samples_method(int spp);
 NamedMethod paper_method();
 NamedMethod map_method(Quality quality);
+/// 1 and 16 samples, the paper's way, and the map at every quality from fast up: what Figs. 8 and 9 compare.
+std::vector<NamedMethod> compared_methods();
 NamedMethod parameters_method();
 
 /// The object of `texture`, seen so that a map of `size` texels is minified that much.
