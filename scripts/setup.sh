@@ -7,7 +7,7 @@ packages=(cmake ninja-build pkg-config g++ ccache mold libembree-dev libopenexr-
   libgtest-dev libbenchmark-dev libmeshoptimizer-dev mesa-vulkan-drivers libvulkan-dev vulkan-validationlayers
   libglfw3-dev libimgui-dev libgl-dev xvfb glslang-dev glslang-tools spirv-tools clang-format clang-tidy clang-16
   libclang-rt-16-dev valgrind git python3 python3-dev python3-venv libceres-dev
-  openimageio-tools chromium libegl-dev libopengl-dev zlib1g-dev libcpp-httplib-dev)
+  openimageio-tools chromium libegl-dev libopengl-dev zlib1g-dev libtiff-dev libcpp-httplib-dev)
 command -v npm >/dev/null || packages+=(nodejs npm)
 
 missing=()

@@ -59,6 +59,7 @@ std::string usage_complaint(const CLI::App& app, const CLI::ParseError& error) {
 
 int run(int argc, char** argv) {
   CLI::App app{"redmap: mip-maps for procedural shaders (Van Horn and Turk 2008)", "redmap"};
+  app.set_version_flag("--version", "redmap " REDMAP_VERSION);
   app.require_subcommand(1);
   add_commands(app);
   // After the commands: they would inherit it.

@@ -33,6 +33,7 @@ accepts() {
   fi
 }
 
+accepts "redmap 0." --version
 accepts "redmap bake" --help
 for command in bake render compare inspect list mesh unwrap; do accepts "--threads" $command --help; done
 accepts "quality" bench --help
