@@ -13,7 +13,7 @@ namespace redmap::bench {
 
 struct ParityOptions {
   std::string device;                                 ///< as in Device::open()
-  std::vector<std::string> shaders;                   ///< of the library; empty: all that a device takes
+  std::vector<std::string> shaders;                   ///< of the library; empty: all
   std::vector<double> distances{0.4, 0.8, 2, 6, 20};  ///< texels across a pixel: from the shader itself to far away
   int map_size = 256;
   int pixels = 96;  ///< of a picture's side, at most
@@ -29,10 +29,8 @@ struct ParityRow {
   double max_error = 0;
 };
 
-/// Library shaders that a device renders.
-std::vector<std::string> device_shaders();
-
-/// Bakes and renders the same on the CPU and on the device.
+/// Bakes and renders the same on the CPU and on the device. Behind shaders that let light pass stand a checkered ball,
+/// one of the same shader, and a wall for their shadows.
 std::vector<ParityRow> measure_parity(const std::shared_ptr<const Surface>& surface, const ParityOptions& options);
 
 }  // namespace redmap::bench

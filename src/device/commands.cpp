@@ -35,7 +35,7 @@ struct DrawState {
     depth.depthTestEnable = depth.depthWriteEnable = true;
     depth.depthCompareOp = vk::CompareOp::eGreater;
     channel.colorWriteMask = vk::ColorComponentFlagBits::eR;
-    if (kind == TargetKind::kNumbers) blend.setAttachments(channel);
+    if (kind != TargetKind::kDepth) blend.setAttachments(channel);
   }
   DrawState(const DrawState&) = delete;
 };
@@ -129,8 +129,11 @@ Bindings& Bindings::add(const DeviceImage& image) {
 }
 Bindings& Bindings::add(const RenderTarget& target) {
   const RenderTarget::Impl& impl = target.impl();
-  const ImageHandles& image = impl.kind == TargetKind::kNumbers ? impl.numbers : impl.depth;
+  const ImageHandles& image = impl.kind == TargetKind::kDepth ? impl.depth : impl.numbers;
   return add_picture(*impl_, *impl.sampler, *image.view), *this;
+}
+Bindings& Bindings::add_depth(const RenderTarget& target) {
+  return add_picture(*impl_, *target.impl().sampler, *target.impl().depth.view), *this;
 }
 
 struct CommandList::Impl {
@@ -184,7 +187,7 @@ void CommandList::begin_target(const RenderTarget& target, int layer) {
   const RenderTarget::Impl& impl = target.impl();
   const vk::Extent2D extent(impl.extent.width, impl.extent.height);
   const vk::ClearValue cleared[2] = {};
-  const std::uint32_t attachments = impl.kind == TargetKind::kNumbers ? 2 : 1;
+  const std::uint32_t attachments = impl.kind == TargetKind::kDepth ? 1 : 2;
   const vk::RenderPassBeginInfo pass(*impl.pass, *impl.framebuffers[layer], {{}, extent}, attachments, cleared);
   const vk::raii::CommandBuffer& commands = impl_->begun();
   commands.beginRenderPass(pass, vk::SubpassContents::eInline);

@@ -38,6 +38,8 @@ class Bindings {
   Bindings& add(const LayeredTexture& texture);
   Bindings& add(const DeviceImage& image);
   Bindings& add(const RenderTarget& target);
+  /// The depth values of a target of kind kLayers.
+  Bindings& add_depth(const RenderTarget& target);
 
   struct Impl;
   const Impl& impl() const { return *impl_; }

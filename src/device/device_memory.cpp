@@ -141,7 +141,7 @@ LayeredTexture& LayeredTexture::operator=(LayeredTexture&&) noexcept = default;
 
 vk::raii::RenderPass make_render_pass(const vk::raii::Device& device, TargetKind kind) {
   using Layout = vk::ImageLayout;
-  const bool numbers = kind == TargetKind::kNumbers;
+  const bool numbers = kind != TargetKind::kDepth;
   const auto attachment = [](vk::Format format, bool kept, Layout use, Layout after) {
     return vk::AttachmentDescription({}, format, vk::SampleCountFlagBits::e1, vk::AttachmentLoadOp::eClear,
                                      kept ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare,
@@ -151,8 +151,8 @@ vk::raii::RenderPass make_render_pass(const vk::raii::Device& device, TargetKind
   std::vector<vk::AttachmentDescription> attachments;
   if (numbers)
     attachments.push_back(attachment(kNumbers, true, Layout::eColorAttachmentOptimal, Layout::eShaderReadOnlyOptimal));
-  attachments.push_back(
-      attachment(kDepth, !numbers, Layout::eDepthStencilAttachmentOptimal, Layout::eShaderReadOnlyOptimal));
+  attachments.push_back(attachment(kDepth, kind != TargetKind::kNumbers, Layout::eDepthStencilAttachmentOptimal,
+                                   Layout::eShaderReadOnlyOptimal));
   const vk::AttachmentReference color(0, Layout::eColorAttachmentOptimal);
   const vk::AttachmentReference depth(numbers ? 1 : 0, Layout::eDepthStencilAttachmentOptimal);
   vk::SubpassDescription subpass;
@@ -170,7 +170,7 @@ RenderTarget::RenderTarget(const Device& device, TargetKind kind, Extent extent,
     impl_->depth =
         make_image(*impl_->device, image_info(kDepth, extent, layers, 1, ImageUsageFlagBits::eDepthStencilAttachment),
                    vk::ImageAspectFlagBits::eDepth);
-    if (kind == TargetKind::kNumbers)
+    if (kind != TargetKind::kDepth)
       impl_->numbers =
           make_image(*impl_->device, image_info(kNumbers, extent, layers, 1, ImageUsageFlagBits::eColorAttachment),
                      vk::ImageAspectFlagBits::eColor);
@@ -183,7 +183,7 @@ RenderTarget::RenderTarget(const Device& device, TargetKind kind, Extent extent,
             vulkan, vk::ImageViewCreateInfo({}, *image.image, vk::ImageViewType::e2D, format, {}, part));
         views.push_back(*impl_->layer_views.back());
       };
-      if (kind == TargetKind::kNumbers) add(impl_->numbers, kNumbers, vk::ImageAspectFlagBits::eColor);
+      if (kind != TargetKind::kDepth) add(impl_->numbers, kNumbers, vk::ImageAspectFlagBits::eColor);
       add(impl_->depth, kDepth, vk::ImageAspectFlagBits::eDepth);
       impl_->framebuffers.emplace_back(
           vulkan, vk::FramebufferCreateInfo({}, *impl_->pass, views, extent.width, extent.height, 1));

@@ -56,6 +56,7 @@ class LayeredTexture {
 /// What triangles are drawn into, and shaders then fetch from.
 enum class TargetKind {
   kNumbers,  ///< a whole number a pixel (usampler2DArray), nearest first: greater depth values are nearer
+  kLayers,   ///< the same, and shaders fetch the depth values too (sampler2DArray)
   kDepth,    ///< the greatest depth value alone (sampler2DArray)
 };
 

@@ -5,6 +5,8 @@
 
 #include "gpu/map_memory.h"
 #include "gpu/parameter_memory.h"
+#include "gpu/triangle_tree.h"
+#include "scene/layer_limits.h"
 #include "scene/placement.h"
 #include "surface/mesh.h"
 
@@ -52,10 +54,6 @@ DeviceShader shader_for(const Object& object) {
   const ShaderInfo& info = object.shader->info();
   if (object.surface->pose_fingerprint() != object.surface->fingerprint())
     throw Error("object '{}': expected a mesh at rest, found a deformed one: render it without --device", object.name);
-  if (info.transmits)
-    throw Error(
-        "object '{}': expected an opaque shader, found '{}', which lets light through: render it without --device",
-        object.name, info.name);
   std::optional<DeviceShader> shader = device_shader(*object.shader);
   if (!shader)
     throw Error("object '{}': expected a shader in GLSL, found the plug-in '{}': render it without --device",
@@ -73,7 +71,9 @@ float average_scale(const Surface& surface) {
 DeviceObject::Geometry DeviceObject::make_geometry() const {
   const Device& device = *device_;
   if (const TriangleMesh* mesh = surface_->mesh()) {
-    const std::vector<float> faces = face_floats(*mesh);
+    std::vector<float> faces = face_floats(*mesh);
+    if (traits_.passes_light)
+      for (const Vec4& v : triangle_tree(*mesh)) faces.insert(faces.end(), {v.x, v.y, v.z, v.w});
     return {LocalBuffer(device, bytes_of_all(mesh->positions)), LocalBuffer(device, bytes_of_all(mesh->triangles)),
             LocalBuffer(device, bytes_of_all(faces))};
   }
@@ -98,10 +98,19 @@ LayeredTexture DeviceObject::make_texels(const ObjectData& data) {
   return LayeredTexture(*device_, TexelKind::kBytes, {1, 1}, 1, 1, false, std::vector<std::byte>(4));
 }
 
-DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, const ObjectData& data, bool shadows,
+ObjectTraits DeviceObject::first_traits(const Object& object, const SceneTraits& scene) {
+  ObjectTraits traits;
+  traits.surface = kind_of(*object.surface);
+  traits.shadows = scene.shadows, traits.layers = scene.layers;
+  traits.passes_light = scene.shadows && object.shader->info().transmits;
+  return traits;
+}
+
+DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, const ObjectData& data, const SceneTraits& scene,
                            std::uint32_t first_number, std::uint32_t index)
     : device_(cache.device()),
       surface_(object.surface),
+      traits_(first_traits(object, scene)),
       transform_(object.transform),
       geometry_(make_geometry()),
       block_(*device_, sizeof(ObjectBlock)),
@@ -109,48 +118,68 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, const Obj
       patterns_(*device_, std::size_t{4}),
       data_(*device_, std::size_t{4}) {
   const DeviceShader shader = shader_for(object);
-  const ShaderInfo& info = object.shader->info();
-  traits_.surface = kind_of(*surface_);
-  traits_.shadows = shadows;
+  transmits_ = object.shader->info().transmits;
+  texels_.push_back(make_texels(data));
+  set_block(first_number, index);
+  for (const Image& image : shader.images) images_.emplace_back(*device_, image);
+  make_kernels(cache, shader, object.shader->info());
+}
+
+void DeviceObject::set_block(std::uint32_t first_number, std::uint32_t index) {
   const Vec3 size = surface_->upper() - surface_->lower();
   values_.shape = {1, 0.5f * size.x, size.y, average_scale(*surface_)};
-  texels_.push_back(make_texels(data));
   const TriangleMesh* mesh = surface_->mesh();
-  numbers_ = mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 1;
-  draw_triangles_ = mesh ? numbers_ : kBoxTriangles;
-  values_.numbers.x = first_number, values_.numbers.y = numbers_;
+  const auto triangles = mesh ? static_cast<std::uint32_t>(mesh->triangles.size()) : 0;
+  draw_triangles_ = mesh ? triangles : kBoxTriangles;
+  values_.numbers.x = first_number;
+  values_.numbers.y = mesh ? triangles : traits_.layers ? 2 : 1;
   values_.numbers.w = index;
+}
 
-  for (const Image& image : shader.images) images_.emplace_back(*device_, image);
+void DeviceObject::make_kernels(PipelineCache& cache, const DeviceShader& shader, const ShaderInfo& info) {
   const PipelineInputs inputs{kObjectBuffers, kObjectBindings - kObjectBuffers + static_cast<int>(images_.size()),
                               sizeof(BandCall)};
-  draw_numbers_ = &cache.draw(traits_.surface, TargetKind::kNumbers);
+  draw_numbers_ = &cache.draw(traits_.surface, traits_.layers ? TargetKind::kLayers : TargetKind::kNumbers);
   draw_depth_ = &cache.draw(traits_.surface, TargetKind::kDepth);
-  sort_ = &cache.compute(sort_text(traits_.surface), inputs);
+  sort_ = &cache.compute(sort_text(traits_.surface, traits_.layers), inputs);
   group_ = &cache.compute(group_text(), inputs);
+  if (traits_.layers && traits_.shadows) receive_ = &cache.compute(receive_text(traits_.surface), inputs);
   const ShaderSources text = shade_text(shader, info, traits_);
-  for (const ShadeStage stage : {ShadeStage::kBind, ShadeStage::kNear, ShadeStage::kFar, ShadeStage::kSpread}) {
-    // The shader itself needs one stage; parameters and maps with normals shade all that is filtered in one.
-    if (stage != ShadeStage::kNear && traits_.channels == 0) continue;
-    if (stage == ShadeStage::kBind && traits_.basis == 0) continue;
-    if (stage == ShadeStage::kSpread && (traits_.basis == 0 || traits_.has_normals)) continue;
-    if (stage == ShadeStage::kFar && traits_.has_grains && !traits_.has_normals) continue;  // drawn wherever they are
-    shade_[static_cast<int>(stage)] = &cache.shade(text, !info.file.empty(), inputs, stage);
-  }
+  for (int i = 0; i < kShadeStages; ++i)
+    if (const auto stage = static_cast<ShadeStage>(i); needs(stage))
+      shade_[i] = &cache.shade(text, !info.file.empty(), inputs, stage);
   parameters_ = LocalBuffer(*device_, std::span<const std::byte>(shader.parameters));
   if (traits_.basis > 0) patterns_ = LocalBuffer(*device_, cache.pattern_size(text) * traits_.basis);
+}
+
+/// The shader itself needs one stage; parameters and maps with normals shade all that is filtered in one.
+bool DeviceObject::needs(ShadeStage stage) const {
+  switch (stage) {
+    case ShadeStage::kBind:
+      return traits_.basis > 0;
+    case ShadeStage::kNear:
+      return true;
+    case ShadeStage::kFar:  // a grain is drawn wherever it is
+      return traits_.channels > 0 && (!traits_.has_grains || traits_.has_normals);
+    case ShadeStage::kSpread:
+      return traits_.basis > 0 && !traits_.has_normals;
+    case ShadeStage::kPass:
+      return traits_.passes_light;
+  }
+  return false;
 }
 
 void DeviceObject::attach(const FrameMemory& memory, CommandList& commands) {
   lists_ = memory.lists;
   number_bindings_ = std::make_unique<Bindings>(*draw_numbers_);
   number_bindings_->add(memory.views->buffer()).add(block_.buffer());
+  if (traits_.layers) number_bindings_->add(*memory.paths);
   depth_bindings_ = std::make_unique<Bindings>(*draw_depth_);
   depth_bindings_->add(memory.views->buffer()).add(block_.buffer());
   bindings_ = std::make_unique<Bindings>(*sort_);
   bindings_->add(memory.frame->buffer()).add(block_.buffer()).add(geometry_.faces).add(*memory.lists);
   bindings_->add(*memory.radiance).add(parameters_).add(patterns_).add(data_).add(memory.views->buffer());
-  bindings_->add(*memory.seen).add(texels_.front()).add(*memory.shadows);
+  bindings_->add(*memory.paths).add(*memory.seen).add(texels_.front()).add(*memory.shadows);
   for (const DeviceImage& image : images_) bindings_->add(image);
   if (const ComputePipeline* bind = shade_[static_cast<int>(ShadeStage::kBind)])
     commands.dispatch(*bind, *bindings_, bytes_of(BandCall{}), Workgroups{1, 1});
@@ -163,11 +192,12 @@ void DeviceObject::place(const Transform& transform) {
   values_.axis_y = {p.rotation.y, p.translate.y};
   values_.axis_z = {p.rotation.z, p.translate.z};
   values_.shape.x = p.scale;
+  values_.limits.x = kRayOffset * 0.5f * length(surface_->upper() - surface_->lower()) * p.scale;
   block_.set(values_);
 }
 
 void DeviceObject::record_draw(CommandList& commands, TargetKind kind, std::uint32_t view) const {
-  const bool numbers = kind == TargetKind::kNumbers;
+  const bool numbers = kind != TargetKind::kDepth;
   commands.draw(numbers ? *draw_numbers_ : *draw_depth_, numbers ? *number_bindings_ : *depth_bindings_, bytes_of(view),
                 geometry_.positions, geometry_.indices, draw_triangles_);
 }
@@ -201,6 +231,19 @@ bool DeviceObject::cover(BandCall& call, const CameraRays& camera, int samples_a
   return true;
 }
 
+void DeviceObject::record_receivers(CommandList& commands, BandCall call, const CameraRays& camera, int samples_a_side,
+                                    int columns) const {
+  if (cover(call, camera, samples_a_side, columns))
+    commands.dispatch(*receive_, *bindings_, bytes_of(call), Workgroups{call.blocks.w, 1});
+}
+
+void DeviceObject::record_passing(CommandList& commands, BandCall call, int columns) const {
+  if (!traits_.passes_light) return;
+  const std::uint32_t samples = static_cast<std::uint32_t>(columns) * call.rows;
+  commands.dispatch(*shade_[static_cast<int>(ShadeStage::kPass)], *bindings_, bytes_of(call),
+                    Workgroups{(samples + 63) / 64, 1});
+}
+
 void DeviceObject::record_shading(CommandList& commands, BandCall call, const CameraRays& camera, int samples_a_side,
                                   int columns) const {
   if (!cover(call, camera, samples_a_side, columns)) return;
@@ -208,10 +251,10 @@ void DeviceObject::record_shading(CommandList& commands, BandCall call, const Ca
   commands.dispatch(*sort_, *bindings_, bytes_of(call), Workgroups{(call.blocks.w + 63) / 64, 1});
   commands.dispatch(*group_, *bindings_, bytes_of(call), Workgroups{1, 1});
   // Those that are blended add to what the shader itself left.
-  for (int list = 0; list < kShadeStages - 1; ++list) {
-    const ComputePipeline* shade = shade_[list + 1];
-    if (shade && (list == 0 || call.filters))
-      commands.dispatch(*shade, *bindings_, bytes_of(call), *lists_, (1 + list) * sizeof(UVec4));
+  for (const ShadeStage stage : {ShadeStage::kNear, ShadeStage::kFar, ShadeStage::kSpread}) {
+    const ComputePipeline* shade = shade_[static_cast<int>(stage)];  // lists follow the counts in that order
+    if (shade && (stage == ShadeStage::kNear || call.filters))
+      commands.dispatch(*shade, *bindings_, bytes_of(call), *lists_, static_cast<std::size_t>(stage) * sizeof(UVec4));
   }
 }
 

@@ -36,8 +36,14 @@ class PipelineCache {
 /// What all objects of a frame are given.
 struct FrameMemory {
   const SharedBytes *frame, *views;
-  const LocalBuffer *lists, *radiance;
+  const LocalBuffer *lists, *radiance, *paths;
   const RenderTarget *seen, *shadows;
+};
+
+/// What the whole scene asks of every object.
+struct SceneTraits {
+  bool shadows = false;  ///< whether any light casts some
+  bool layers = false;   ///< whether any object lets light pass
 };
 
 class DeviceObject {
@@ -45,10 +51,12 @@ class DeviceObject {
   /// `first_number`: of the object's triangles in the picture of numbers; `index`: of the object. `data`: a map, or
   /// parameters, or neither where the shader itself is to be used. Throws Error on surfaces, shaders and maps that this
   /// renderer does not take.
-  DeviceObject(PipelineCache& cache, const Object& object, const ObjectData& data, bool shadows,
+  DeviceObject(PipelineCache& cache, const Object& object, const ObjectData& data, const SceneTraits& scene,
                std::uint32_t first_number, std::uint32_t index);
 
-  std::uint32_t numbers() const { return numbers_; }
+  /// In the picture of numbers: triangles of a mesh; of other surfaces 1, and in layers another where rays go out.
+  std::uint32_t numbers() const { return values_.numbers.y; }
+  bool transmits() const { return transmits_; }
 
   /// To be called once, before the first frame. Binds the basis on the device.
   void attach(const FrameMemory& memory, CommandList& commands);
@@ -57,6 +65,11 @@ class DeviceObject {
   void record_upload(CommandList& commands) const { block_.record_upload(commands); }
   /// Into the target that was begun, by view `view`.
   void record_draw(CommandList& commands, TargetKind kind, std::uint32_t view) const;
+  /// In layers: where its samples in a band are lit; then, when those of all objects are known, how much of each light
+  /// passes this object on the way to any of them.
+  void record_receivers(CommandList& commands, BandCall call, const CameraRays& camera, int samples_a_side,
+                        int columns) const;
+  void record_passing(CommandList& commands, BandCall call, int columns) const;
   /// Sorts and shades its samples in a band. `call.blocks` is filled in by what the object may cover.
   void record_shading(CommandList& commands, BandCall call, const CameraRays& camera, int samples_a_side,
                       int columns) const;
@@ -66,6 +79,10 @@ class DeviceObject {
     LocalBuffer positions, indices, faces;
   };
   Geometry make_geometry() const;
+  static ObjectTraits first_traits(const Object& object, const SceneTraits& scene);
+  bool needs(ShadeStage stage) const;
+  void set_block(std::uint32_t first_number, std::uint32_t index);
+  void make_kernels(PipelineCache& cache, const DeviceShader& shader, const ShaderInfo& info);
   LayeredTexture make_texels(const ObjectData& data);
   bool cover(BandCall& call, const CameraRays& camera, int samples_a_side, int columns) const;
 
@@ -74,7 +91,8 @@ class DeviceObject {
   ObjectTraits traits_;
   ObjectBlock values_;
   Transform transform_;
-  std::uint32_t numbers_ = 0, draw_triangles_ = 0;
+  std::uint32_t draw_triangles_ = 0;
+  bool transmits_ = false;
   Geometry geometry_;
   SharedBytes block_;
   LocalBuffer parameters_, patterns_, data_;
@@ -82,7 +100,7 @@ class DeviceObject {
   std::vector<DeviceImage> images_;
   const LocalBuffer* lists_ = nullptr;
   const GraphicsPipeline *draw_numbers_ = nullptr, *draw_depth_ = nullptr;
-  const ComputePipeline *sort_ = nullptr, *group_ = nullptr;
+  const ComputePipeline *sort_ = nullptr, *group_ = nullptr, *receive_ = nullptr;
   const ComputePipeline* shade_[kShadeStages] = {};
   std::unique_ptr<Bindings> number_bindings_, depth_bindings_, bindings_;
 };

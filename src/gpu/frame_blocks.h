@@ -32,6 +32,7 @@ struct ObjectBlock {
   UVec4 numbers;
   Vec4 map;
   std::array<Vec4, 6> scales;
+  Vec4 limits;
 };
 
 /// Most lights of a scene.
@@ -64,6 +65,7 @@ enum ObjectBinding {
   kPatternsBinding,
   kDataBinding,
   kViewsBinding,
+  kPathsBinding,
   kObjectBuffers,
   kSeenBinding = kObjectBuffers,
   kTexelsBinding,

@@ -5,6 +5,7 @@
 #include "lobes/gaussian_points.h"
 #include "lobes/lobe_limits.h"
 #include "map/lookup_limits.h"
+#include "scene/layer_limits.h"
 
 namespace redmap {
 namespace {
@@ -45,6 +46,8 @@ constexpr Limit kLimits[] = {
     {"blend_end", kBlendEnd},
     {"largest_turn", kLargestTurn},
     {"least_cosine", kLeastCosine},
+    {"least_throughput", kLeastThroughput},
+    {"roundings", kRoundings},
 };
 
 }  // namespace

@@ -14,6 +14,8 @@ std::string head(SurfaceKind surface) {
   return fmt::format("#version 450\n#define REDMAP_SURFACE {}\n", static_cast<int>(surface)) + limits_text();
 }
 
+const char* layers_text(bool layers) { return layers ? "#define REDMAP_LAYERS\n" : ""; }
+
 std::string guard_text(const ShaderInfo& info) {
   return fmt::format("{}const uint redmap_most_rounds = {}u;\n", info.file.empty() ? "" : "#define REDMAP_GUARDED\n",
                      kMostRounds);
@@ -22,27 +24,35 @@ std::string guard_text(const ShaderInfo& info) {
 }  // namespace
 
 std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind) {
-  const std::string numbers = kind == TargetKind::kNumbers ? "#define REDMAP_NUMBERS\n" : "";
-  return head(surface) + numbers +
+  const std::string numbers = kind != TargetKind::kDepth ? "#define REDMAP_NUMBERS\n" : "";
+  return head(surface) + numbers + layers_text(kind == TargetKind::kLayers) +
          kernel_texts({"view", "object", "analytic", stage == GlslStage::kVertex ? "draw_vertex" : "draw_fragment"});
 }
 
-std::string sort_text(SurfaceKind surface) {
-  return head(surface) + kernel_texts({"view", "object", "analytic", "frame", "hit_type", "hit", "footprint", "sort"});
+std::string sort_text(SurfaceKind surface, bool layers) {
+  return head(surface) + layers_text(layers) +
+         kernel_texts({"view", "object", "analytic", "frame", "hit_type", "hit", "footprint", "sort"});
+}
+
+std::string receive_text(SurfaceKind surface) {
+  return head(surface) + layers_text(true) +
+         kernel_texts({"view", "object", "analytic", "frame", "hit_type", "hit", "paths", "receive"});
 }
 
 std::string group_text() { return "#version 450\n" + kernel_texts({"frame", "group"}); }
-std::string resolve_text() { return "#version 450\n" + kernel_texts({"frame", "resolve"}); }
+std::string advance_text() { return "#version 450\n" + limits_text() + kernel_texts({"frame", "paths", "advance"}); }
+std::string resolve_text(bool layers) {
+  return std::string("#version 450\n") + layers_text(layers) + kernel_texts({"frame", "resolve"});
+}
 
 std::string trait_definitions(const ObjectTraits& traits) {
   const std::pair<const char*, std::size_t> numbers[] = {
       {"BASIS", traits.basis},       {"CHANNELS", traits.channels}, {"HAS_COVERAGE", traits.has_coverage},
       {"WRAPS", traits.wraps_u},     {"WIDTHS", traits.widths},     {"LEAVES", traits.leaves},
       {"GRAINS", traits.has_grains}, {"SLOPES", traits.first_slope}};
-  const std::pair<const char*, bool> flags[] = {{"MENDS", traits.mends_seams},
-                                                {"HIDES_FRAMES", traits.hides_frames},
-                                                {"SHADOWS", traits.shadows},
-                                                {"DRAWS_NORMALS", traits.draws_normals}};
+  const std::pair<const char*, bool> flags[] = {
+      {"MENDS", traits.mends_seams}, {"HIDES_FRAMES", traits.hides_frames}, {"SHADOWS", traits.shadows},
+      {"LAYERS", traits.layers},     {"PASSES", traits.passes_light},       {"DRAWS_NORMALS", traits.draws_normals}};
   std::string lines;
   for (const auto& [name, number] : numbers) lines += fmt::format("#define REDMAP_{} {}\n", name, number);
   for (const auto& [name, is_set] : flags)
@@ -64,8 +74,10 @@ ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, con
   ShaderSources all{"", shader.sources.names};
   all.names.push_back(shader.sources.names.front() + ", as redmap renders it");
   const std::string ours = fmt::format("#line 1 {}\n", all.names.size() - 1);
-  std::string before = kernel_texts(
-      {"view", "object", "analytic", "frame", "hit_type", "hit", "footprint", "own_memory", "place", "lights"});
+  std::string before = kernel_texts({"view", "object", "analytic", "frame"});
+  if (traits.layers) before += kernel_text("paths");
+  before += kernel_texts({"hit_type", "hit", "footprint", "own_memory", "place", "lights"});
+  if (traits.passes_light) before += kernel_text("tree");
   std::string after = kernel_texts({"own_patterns", "bind", "shade"});
   if (traits.channels > 0) before += kernel_text("lookup");
   if (traits.basis > 0) {
@@ -75,6 +87,7 @@ ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, con
   } else if (traits.channels > 0) {
     after += library_include_text("include/widened.glsl") + std::string(kernel_text("shade_parameters"));
   }
+  if (traits.passes_light) after += kernel_text("pass_light");
   after += kernel_text("shade_main");
   all.text = head(traits.surface) + ours + shader_text_head(info) + trait_definitions(traits) + guard_text(info) +
              before + shader_text_body(shader.sources, info, kObjectBindings) + ours + after;

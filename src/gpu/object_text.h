@@ -15,6 +15,8 @@ enum class SurfaceKind { kMesh, kSphere, kCylinder };
 struct ObjectTraits {
   SurfaceKind surface = SurfaceKind::kMesh;
   bool shadows = false;       ///< whether any light casts some
+  bool layers = false;        ///< whether any object of the scene lets light pass
+  bool passes_light = false;  ///< whether this one does, and there are shadows
   int basis = 0;              ///< 0: no map
   int channels = 0;           ///< of what is looked up: the basis, or averaged parameters; 0: the shader itself
   int first_slope = 0;        ///< channel of the slopes of normals; 0: none
@@ -30,13 +32,16 @@ struct ObjectTraits {
 };
 
 /// Stages of shading: values of specialization constant 0.
-enum class ShadeStage : std::uint32_t { kBind, kNear, kFar, kSpread };
-inline constexpr int kShadeStages = 4;
+enum class ShadeStage : std::uint32_t { kBind, kNear, kFar, kSpread, kPass };
+inline constexpr int kShadeStages = 5;
 
 std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind);
-std::string sort_text(SurfaceKind surface);
+std::string sort_text(SurfaceKind surface, bool layers);
 std::string group_text();
-std::string resolve_text();
+/// Only in layers.
+std::string receive_text(SurfaceKind surface);
+std::string advance_text();
+std::string resolve_text(bool layers);
 
 /// `#define REDMAP_...`, which the kernels ask for.
 std::string trait_definitions(const ObjectTraits& traits);

@@ -12,13 +12,14 @@ const ComputePipeline& PipelineCache::compute(const std::string& text, const Pip
 }
 
 const GraphicsPipeline& PipelineCache::draw(SurfaceKind surface, TargetKind kind) {
-  auto& made = draws_[2 * static_cast<int>(surface) + static_cast<int>(kind)];
+  auto& made = draws_[3 * static_cast<int>(surface) + static_cast<int>(kind)];
   if (made) return *made;
   const auto compiled = [&](GlslStage stage) {
     return compile_own_glsl(draw_text(surface, stage, kind), "draw", stage);
   };
-  made = std::make_unique<GraphicsPipeline>(*device_, compiled(GlslStage::kVertex), compiled(GlslStage::kFragment),
-                                            kind, PipelineInputs{2, 0, sizeof(std::uint32_t)});
+  made =
+      std::make_unique<GraphicsPipeline>(*device_, compiled(GlslStage::kVertex), compiled(GlslStage::kFragment), kind,
+                                         PipelineInputs{kind == TargetKind::kLayers ? 3 : 2, 0, sizeof(std::uint32_t)});
   return *made;
 }
 

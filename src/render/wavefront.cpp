@@ -8,17 +8,11 @@
 
 #include "render/hit_footprint.h"
 #include "render/joined_hits.h"
+#include "scene/layer_limits.h"
 
 namespace redmap {
 
 namespace {
-
-constexpr int kMaxLayers = 16;               // surfaces seen through, one behind the other
-constexpr float kMinimumThroughput = 1e-3f;  // a quarter of an 8-bit step: nothing behind it can be seen
-
-/// Rays leave a surface this far above it, as a part of the object's size, and by some roundings of the numbers that
-/// led there: well over the error of a float hit, also of objects far away from the camera or the origin.
-constexpr float kRayOffset = 1e-4f, kRoundings = 4 * std::numeric_limits<float>::epsilon();
 
 /// Samples that have passed through the same number of transparent surfaces, and what they hit next.
 struct Layer {
@@ -192,7 +186,7 @@ void receive(const FrameContext& frame, const Paths& paths, const ShadedBatch& s
     }
     add_light(sample, paths.throughput(path) * shaded.radiance.rgb(i) * stands_for, pixels.rgb);
     const Rgb throughput = paths.throughput(path) * shaded.transmittance.rgb(i);
-    if (std::max({throughput.r, throughput.g, throughput.b}) < kMinimumThroughput) continue;
+    if (std::max({throughput.r, throughput.g, throughput.b}) < kLeastThroughput) continue;
     const RayHit& hit = paths.hit(path);
     Ray ray = paths.ray(path);
     ray.t_near = hit.t + offset_of(frame.scene->objects[hit.object], hit.t);

@@ -14,6 +14,8 @@
 #include "base/temporary_folder.h"
 #include "metrics/compare.h"
 #include "render/renderer.h"
+#include "surface/atlas.h"
+#include "surface/shapes.h"
 #include "user_shader/user_shader.h"
 
 namespace redmap {
@@ -198,9 +200,56 @@ TEST(DeviceRenderer, WhatItDoesNotTake_IsOneLine) {
   EXPECT_NE(refused(by(Method::kMap), other).find("from shader 'checker', not 'white'"), std::string::npos);
   scene.lights.assign(65, sun({0, 0, 1}, false));
   EXPECT_NE(refused(by(Method::kOriginal), {}).find("65 lights: expected at most 64"), std::string::npos);
-  scene.lights.clear();
-  scene.objects[0].shader = make_library_shader("transparent");
-  EXPECT_NE(refused(by(Method::kOriginal), {}).find("lets light through"), std::string::npos);
+}
+
+/// Glass of one colour that reflects nothing.
+std::shared_ptr<const Shader> plain_glass(const TemporaryFolder& folder) {
+  const auto file = folder / "glass.glsl";
+  std::ofstream(file) << "struct Parameters {\n  vec3 glass;  // 0.25 0.5 1 [0, 1]: part that passes\n};\n"
+                         "struct Pattern { vec3 glass; };\n"
+                         "Pattern pattern(Surface at, Parameters p) { return Pattern(p.glass); }\n"
+                         "vec3 radiance(Pattern m, vec3 l, vec3 v) { return vec3(0.0); }\n"
+                         "vec3 transmittance(Pattern m) { return m.glass; }\n";
+  return make_user_shader(file, "glass.glsl");
+}
+
+TEST(DeviceRenderer, BehindGlass_IsWhatItLetsPass_SurfaceBySurface) {
+  const TemporaryFolder folder;
+  Scene scene = ball_scene(plain_glass(folder));
+  scene.objects.push_back(make_ball(scene.objects[0].shader, {0, 0, -3}));
+  scene.objects.push_back(make_ball(make_library_shader("white"), {0.2f, 0, -6}));
+  scene.background = {0.6f, 0.8f, 1};
+  const Image image = on_device(scene, by(Method::kOriginal, 1), {});
+  // Two balls, in and out of each; the white one behind them is not lit.
+  EXPECT_EQ(image.rgb(24, 24), (Rgb{0, 0, 0}));
+  EXPECT_EQ(image.rgb(0, 0), scene.background);
+  scene.objects.pop_back();
+  const Rgb through = on_device(scene, by(Method::kOriginal, 1), {}).rgb(24, 24);
+  EXPECT_NEAR(through.g, 0.8f * std::pow(0.5f, 4), 1e-6);
+  EXPECT_NEAR(through.r, 0.6f * std::pow(0.25f, 4), 1e-6);
+  EXPECT_NEAR(through.b, 1, 1e-6);
+}
+
+TEST(DeviceRenderer, LightThroughGlass_HasItsColour_OnBallsAndMeshesAlike) {
+  const TemporaryFolder folder;
+  Scene scene = ball_scene(make_library_shader("white"));
+  scene.lights = {sun({0.8f, 0, 1}, true), lamp({-8, 0, 10}, 50)};
+  const Rgb clear = on_device(scene, by(Method::kOriginal, 1), {}).rgb(24, 24);
+  scene.lights.pop_back();
+  const Rgb sun_alone = on_device(scene, by(Method::kOriginal, 1), {}).rgb(24, 24);
+  scene.lights.push_back(lamp({-8, 0, 10}, 50));
+  // In the way of the sun alone, outside the picture.
+  scene.objects.push_back(make_ball(plain_glass(folder), {3.2f, 0, 5}));
+  const Rgb once = on_device(scene, by(Method::kOriginal, 1), {}).rgb(24, 24);
+  TriangleMesh mesh = icosphere(3);
+  unwrap(mesh);
+  scene.objects.back().surface = make_mesh_surface(std::move(mesh));
+  const Rgb mesh_once = on_device(scene, by(Method::kOriginal, 1), {}).rgb(24, 24);
+  for (const Rgb& found : {once, mesh_once}) {
+    EXPECT_NEAR(found.r, clear.r - sun_alone.r * (1 - 0.0625f), 2e-4 * clear.r);
+    EXPECT_NEAR(found.g, clear.g - sun_alone.g * (1 - 0.25f), 2e-4 * clear.g);
+    EXPECT_NEAR(found.b, clear.b, 2e-4 * clear.b);
+  }
 }
 
 TEST(DeviceRenderer, BlackBoxThatHidesItsNormals_LooksAsOnTheCpu) {

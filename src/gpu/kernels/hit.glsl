@@ -1,12 +1,13 @@
 // What a sample hits, as the surfaces' complete() and render/hit_footprint.h say it, in object space.
-layout(binding = 9) uniform usampler2DArray redmap_seen;  // numbers of triangles
+layout(binding = 10) uniform usampler2DArray redmap_seen;  // numbers of triangles
 
 #if REDMAP_SURFACE == 0
 // Two vec4 a vertex: position, normal, uv.
+const uint redmap_face_vectors = 6u;
 layout(std430, binding = 2) readonly buffer RedmapFaces { vec4 redmap_faces[]; };
 
 void redmap_complete(uint triangle, vec3 origin, vec3 direction, inout RedmapHit hit) {
-  uint first = 6u * triangle;
+  uint first = redmap_face_vectors * triangle;
   vec4 a0 = redmap_faces[first], a1 = redmap_faces[first + 1u];
   vec4 b0 = redmap_faces[first + 2u], b1 = redmap_faces[first + 3u];
   vec4 c0 = redmap_faces[first + 4u], c1 = redmap_faces[first + 5u];
@@ -46,7 +47,13 @@ const float redmap_pi = 3.14159265;
 
 void redmap_complete(uint triangle, vec3 origin, vec3 direction, inout RedmapHit hit) {
   vec3 place;
+#ifdef REDMAP_LAYERS
+  // Number 0 is where rays come in, 1 where they go out.
+  float along;
+  redmap_crossing(origin, direction, triangle == 1u, place, along);
+#else
   redmap_intersect(origin, direction, place);
+#endif
   float across = length(place.xz), turns = atan(place.z, place.x) / (2.0 * redmap_pi);
   vec2 axis = across > 0.0 ? place.xz / across : vec2(1.0, 0.0);
   hit.uv.x = turns < 0.0 ? turns + 1.0 : turns;

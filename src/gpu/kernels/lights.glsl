@@ -1,7 +1,7 @@
 // How light arrives: point and directional lights, shadow maps (Williams 1978) with four comparisons a lookup (Reeves et
 // al. 1987).
 layout(std430, binding = 8) readonly buffer RedmapViews { RedmapView redmap_views[]; };  // of shadow maps first
-layout(binding = 11) uniform sampler2DArray redmap_shadows;
+layout(binding = 12) uniform sampler2DArray redmap_shadows;
 
 // Places are moved off their surface by this many texels of the shadow map, since a comparison takes in the neighbours.
 const float redmap_shadow_offset = 2.0;
@@ -50,6 +50,9 @@ vec3 redmap_arriving(uint l, RedmapHit hit, out vec3 to_light) {
     // A face turned away from the light shadows itself.
     vec3 normal = redmap_to_world(hit.geometric);
     irradiance *= dot(normal, direction) > 0.0 ? redmap_lit(light, world, normal) : 0.0;
+#ifdef REDMAP_LAYERS
+    irradiance *= redmap_passed(l);
+#endif
   }
 #endif
   return irradiance;

@@ -34,6 +34,10 @@ vec3 redmap_original(RedmapHit redmap_hit_) {
 #ifndef REDMAP_BLACK_BOX
   Pattern redmap_m = pattern(redmap_at, redmap_parameters);
   redmap_ended(0u);
+#if defined(REDMAP_LAYERS) && defined(REDMAP_TRANSMITS)
+  redmap_passing = transmittance(redmap_m);
+  redmap_ended(3u);
+#endif
 #ifdef REDMAP_EMITS
   redmap_sum = emission(redmap_m);
   redmap_ended(4u);

@@ -109,7 +109,7 @@ vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sam
 #if REDMAP_GRAINS
   redmap_gather_turns(redmap_hit_, redmap_a);
 #endif
-  vec3 redmap_sum = redmap_emission(redmap_w);
+  vec3 redmap_sum = redmap_constants(redmap_w);
   RedmapQuestion redmap_q;
   redmap_q.turned = redmap_hit_.turned;
   redmap_q.turn = redmap_curvature(redmap_hit_);

@@ -56,8 +56,13 @@ vec3 redmap_kernel_covariance(RedmapHit redmap_hit_, vec3 redmap_x, vec3 redmap_
   return redmap_c * min(1.0, redmap_largest_kernel / max(redmap_c.x + redmap_c.z, 1e-9));
 }
 
+vec3 redmap_behind_of(float redmap_c[REDMAP_CHANNELS]) { return vec3(redmap_c[6], redmap_c[7], redmap_c[8]); }
+
 vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sample) {
   float redmap_c[REDMAP_CHANNELS] = redmap_look_up(redmap_hit_.uv, redmap_a);
+#ifdef REDMAP_LAYERS
+  redmap_passing = redmap_behind_of(redmap_c);
+#endif
   Material redmap_m = redmap_material(redmap_c);
   RedmapMean redmap_f = redmap_mean_of(redmap_hit_, redmap_c);
   vec3 redmap_spread = redmap_f.covariance + redmap_kernel_covariance(redmap_hit_, redmap_f.x, redmap_f.y);

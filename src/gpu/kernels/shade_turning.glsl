@@ -45,7 +45,7 @@ vec3 redmap_one_spread(uint redmap_b, RedmapNormals redmap_d, float redmap_w, ve
 }
 
 vec3 redmap_spread_out(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS]) {
-  vec3 redmap_sum = redmap_emission(redmap_w);
+  vec3 redmap_sum = redmap_constants(redmap_w);
   vec3 redmap_v = redmap_in_frame(redmap_hit_.to_viewer, redmap_hit_.normal, redmap_hit_.tangent);
   RedmapNormals redmap_d = RedmapNormals(vec2(0.0), redmap_curvature(redmap_hit_));
   for (uint redmap_i = 0u; redmap_i < redmap_picture.z; redmap_i++) {
@@ -82,7 +82,7 @@ vec3 redmap_drawn(RedmapHit redmap_hit_, float redmap_w[REDMAP_BASIS], uint redm
     redmap_bright[redmap_b] = redmap_number(redmap_model(redmap_b) + 3u);
     redmap_total += redmap_w[redmap_b] * redmap_bright[redmap_b];
   }
-  vec3 redmap_sum = redmap_emission(redmap_w);
+  vec3 redmap_sum = redmap_constants(redmap_w);
   vec3 redmap_v = redmap_in_frame(redmap_hit_.to_viewer, redmap_hit_.normal, redmap_hit_.tangent);
   float redmap_first = redmap_random(redmap_sample);
   for (uint redmap_i = 0u; redmap_i < redmap_picture.z; redmap_i++) {
