@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/lanes_math.h"
+#include "base/parallel.h"
 #include "map/lookup_limits.h"
 
 namespace redmap {
@@ -38,10 +39,19 @@ class CellSorter {
                        const float ka = key(a, axis), kb = key(b, axis);
                        return ka != kb ? ka < kb : a < b;
                      });
-    sort(begin, middle, parts / 2), sort(middle, end, parts / 2);
+    const auto sort_half = [&](std::size_t half) {
+      half == 0 ? sort(begin, middle, parts / 2) : sort(middle, end, parts / 2);
+    };
+    if (end - begin > kCellsWorthAThread)
+      parallel_for(2, sort_half);
+    else
+      sort_half(0), sort_half(1);
   }
 
  private:
+  /// Handing on fewer costs more than it gains.
+  static constexpr std::size_t kCellsWorthAThread = 1 << 12;
+
   /// Axes 0 to 2 are those of the position, 3 to 5 those of the normal.
   float key(std::uint32_t cell, int axis) const {
     return axis < 3 ? cells_[cell].position[axis] : cells_[cell].normal[axis - 3];

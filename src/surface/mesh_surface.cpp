@@ -154,16 +154,24 @@ void MeshSurface::claim(Extent extent, TexelRegion band, std::span<const Vec2> o
     const auto [bottom, top] = std::minmax({p[0].y, p[1].y, p[2].y});
     for (std::size_t k = 0; k < offsets.size(); ++k) {
       const double ox = offsets[k].x, oy = offsets[k].y;
+      const int x_begin = std::max(band.x, static_cast<int>(std::ceil(left - ox)));
       const int x_end = std::min(band.x + band.width - 1, static_cast<int>(std::floor(right - ox)));
       const int y_end = std::min(band.y + band.height - 1, static_cast<int>(std::floor(top - oy)));
-      for (int y = std::max(band.y, static_cast<int>(std::ceil(bottom - oy))); y <= y_end; ++y)
-        for (int x = std::max(band.x, static_cast<int>(std::ceil(left - ox))); x <= x_end; ++x) {
+      for (int y = std::max(band.y, static_cast<int>(std::ceil(bottom - oy))); y <= y_end; ++y) {
+        const auto holds = [&](int x) {
           const TexelPoint at{x + ox, y + oy};
-          std::uint32_t& owner = owners[(std::size_t(y - band.y) * band.width + (x - band.x)) * offsets.size() + k];
-          if (owner == kNobody && orientation * edges[0].side(at) >= 0 && orientation * edges[1].side(at) >= 0 &&
-              orientation * edges[2].side(at) >= 0)
-            owner = t;
-        }
+          return orientation * edges[0].side(at) >= 0 && orientation * edges[1].side(at) >= 0 &&
+                 orientation * edges[2].side(at) >= 0;
+        };
+        // Along a row every side grows or falls, rounded or not: what lies between two points of the triangle is in it.
+        int first = x_begin, last = x_end;
+        while (first <= last && !holds(first)) ++first;
+        if (first > last) continue;
+        while (last > first && !holds(last)) --last;
+        std::uint32_t* owner = &owners[(std::size_t(y - band.y) * band.width + (first - band.x)) * offsets.size() + k];
+        for (int x = first; x <= last; ++x, owner += offsets.size())
+          if (*owner == kNobody) *owner = t;
+      }
     }
   }
 }
@@ -192,12 +200,11 @@ void MeshSurface::rasterize(Extent extent, TexelRegion region, std::span<const V
   for (int row = 0; row < region.height; row += band_rows) {
     const TexelRegion band{region.x, region.y + row, region.width, std::min(band_rows, region.height - row)};
     claim(extent, band, offsets, owners);
-    const std::size_t first_texel = std::size_t(row) * region.width;
-    for (std::size_t i = 0; i < owners.size(); ++i) {
-      const std::size_t texel = first_texel + i / offsets.size();
-      if (owners[i] != kNobody && (wanted.empty() || wanted[texel]))
-        found.push_back({static_cast<std::uint32_t>(texel), static_cast<std::uint32_t>(i % offsets.size()), owners[i]});
-    }
+    const std::uint32_t first_texel = static_cast<std::uint32_t>(row * region.width);
+    const std::uint32_t* owner = owners.data();
+    for (std::uint32_t texel = first_texel; texel < first_texel + band.width * band.height; ++texel)
+      for (std::uint32_t offset = 0; offset < offsets.size(); ++offset, ++owner)
+        if (*owner != kNobody && (wanted.empty() || wanted[texel])) found.push_back({texel, offset, *owner});
   }
 
   out.texel.resize(found.size());
