@@ -37,23 +37,32 @@ std::span<const std::byte> bytes_of_all(const T& values) {
   return std::as_bytes(std::span(values));
 }
 
+bool is_posed(const Surface& surface) { return surface.pose_fingerprint() != surface.fingerprint(); }
+
 /// Two vec4 a vertex: position, normal, uv.
-std::vector<float> face_floats(const TriangleMesh& mesh) {
+void append_face(const TriangleMesh& mesh, std::size_t t, std::vector<float>& floats) {
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 p = mesh.positions[mesh.triangles[t][k]], n = mesh.normals[mesh.normal_triangles[t][k]];
+    const Vec2 uv = mesh.uv[mesh.uv_triangles[t][k]];
+    floats.insert(floats.end(), {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
+  }
+}
+
+/// Of deformed meshes each face is followed by itself at rest.
+std::vector<float> face_floats(const Surface& surface) {
+  const bool posed = is_posed(surface);
+  const std::size_t triangles = surface.mesh()->triangles.size();
   std::vector<float> floats;
-  floats.reserve(24 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = mesh.positions[mesh.triangles[t][k]], n = mesh.normals[mesh.normal_triangles[t][k]];
-      const Vec2 uv = mesh.uv[mesh.uv_triangles[t][k]];
-      floats.insert(floats.end(), {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
-    }
+  floats.reserve((posed ? 48 : 24) * triangles);
+  for (std::size_t t = 0; t < triangles; ++t) {
+    append_face(*surface.mesh(), t, floats);
+    if (posed) append_face(*surface.mesh_at_rest(), t, floats);
+  }
   return floats;
 }
 
 DeviceShader shader_for(const Object& object) {
   const ShaderInfo& info = object.shader->info();
-  if (object.surface->pose_fingerprint() != object.surface->fingerprint())
-    throw Error("object '{}': expected a mesh at rest, found a deformed one: render it without --device", object.name);
   std::optional<DeviceShader> shader = device_shader(*object.shader);
   if (!shader)
     throw Error("object '{}': expected a shader in GLSL, found the plug-in '{}': render it without --device",
@@ -71,7 +80,7 @@ float average_scale(const Surface& surface) {
 DeviceObject::Geometry DeviceObject::make_geometry() const {
   const Device& device = *device_;
   if (const TriangleMesh* mesh = surface_->mesh()) {
-    std::vector<float> faces = face_floats(*mesh);
+    std::vector<float> faces = face_floats(*surface_);
     if (traits_.passes_light)
       for (const Vec4& v : triangle_tree(*mesh)) faces.insert(faces.end(), {v.x, v.y, v.z, v.w});
     return {LocalBuffer(device, bytes_of_all(mesh->positions)), LocalBuffer(device, bytes_of_all(mesh->triangles)),
@@ -101,6 +110,7 @@ LayeredTexture DeviceObject::make_texels(const ObjectData& data) {
 ObjectTraits DeviceObject::first_traits(const Object& object, const SceneTraits& scene) {
   ObjectTraits traits;
   traits.surface = kind_of(*object.surface);
+  traits.posed = is_posed(*object.surface);
   traits.shadows = scene.shadows, traits.layers = scene.layers;
   traits.passes_light = scene.shadows && object.shader->info().transmits;
   return traits;
@@ -141,9 +151,9 @@ void DeviceObject::make_kernels(PipelineCache& cache, const DeviceShader& shader
                               sizeof(BandCall)};
   draw_numbers_ = &cache.draw(traits_.surface, traits_.layers ? TargetKind::kLayers : TargetKind::kNumbers);
   draw_depth_ = &cache.draw(traits_.surface, TargetKind::kDepth);
-  sort_ = &cache.compute(sort_text(traits_.surface, traits_.layers), inputs);
+  sort_ = &cache.compute(sort_text(traits_), inputs);
   group_ = &cache.compute(group_text(), inputs);
-  if (traits_.layers && traits_.shadows) receive_ = &cache.compute(receive_text(traits_.surface), inputs);
+  if (traits_.layers && traits_.shadows) receive_ = &cache.compute(receive_text(traits_), inputs);
   const ShaderSources text = shade_text(shader, info, traits_);
   for (int i = 0; i < kShadeStages; ++i)
     if (const auto stage = static_cast<ShadeStage>(i); needs(stage))

@@ -31,7 +31,7 @@ void require_device_method(const DeviceRenderOptions& options);
 class DeviceRenderer {
  public:
   /// `data` has one entry an object. Throws Error where something that the method needs is missing or of something
-  /// else, on what this renderer does not take (plug-ins, deformed meshes, more than 64 lights), and where the
+  /// else, on what this renderer does not take (plug-ins, more than 64 lights), and where the
   /// device fails.
   DeviceRenderer(std::shared_ptr<Device> device, const Scene& scene, const DeviceRenderOptions& options,
                  const std::vector<ObjectData>& data);

@@ -16,6 +16,11 @@ std::string head(SurfaceKind surface) {
 
 const char* layers_text(bool layers) { return layers ? "#define REDMAP_LAYERS\n" : ""; }
 
+/// What finding a hit depends on.
+std::string place_definitions(const ObjectTraits& traits) {
+  return std::string(layers_text(traits.layers)) + (traits.posed ? "#define REDMAP_POSED\n" : "");
+}
+
 std::string guard_text(const ShaderInfo& info) {
   return fmt::format("{}const uint redmap_most_rounds = {}u;\n", info.file.empty() ? "" : "#define REDMAP_GUARDED\n",
                      kMostRounds);
@@ -29,13 +34,13 @@ std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind) {
          kernel_texts({"view", "object", "analytic", stage == GlslStage::kVertex ? "draw_vertex" : "draw_fragment"});
 }
 
-std::string sort_text(SurfaceKind surface, bool layers) {
-  return head(surface) + layers_text(layers) +
+std::string sort_text(const ObjectTraits& traits) {
+  return head(traits.surface) + place_definitions(traits) +
          kernel_texts({"view", "object", "analytic", "frame", "hit_type", "hit", "footprint", "sort"});
 }
 
-std::string receive_text(SurfaceKind surface) {
-  return head(surface) + layers_text(true) +
+std::string receive_text(const ObjectTraits& traits) {
+  return head(traits.surface) + place_definitions(traits) +
          kernel_texts({"view", "object", "analytic", "frame", "hit_type", "hit", "paths", "receive"});
 }
 
@@ -50,9 +55,13 @@ std::string trait_definitions(const ObjectTraits& traits) {
       {"BASIS", traits.basis},       {"CHANNELS", traits.channels}, {"HAS_COVERAGE", traits.has_coverage},
       {"WRAPS", traits.wraps_u},     {"WIDTHS", traits.widths},     {"LEAVES", traits.leaves},
       {"GRAINS", traits.has_grains}, {"SLOPES", traits.first_slope}};
-  const std::pair<const char*, bool> flags[] = {
-      {"MENDS", traits.mends_seams}, {"HIDES_FRAMES", traits.hides_frames}, {"SHADOWS", traits.shadows},
-      {"LAYERS", traits.layers},     {"PASSES", traits.passes_light},       {"DRAWS_NORMALS", traits.draws_normals}};
+  const std::pair<const char*, bool> flags[] = {{"MENDS", traits.mends_seams},
+                                                {"HIDES_FRAMES", traits.hides_frames},
+                                                {"SHADOWS", traits.shadows},
+                                                {"POSED", traits.posed},
+                                                {"LAYERS", traits.layers},
+                                                {"PASSES", traits.passes_light},
+                                                {"DRAWS_NORMALS", traits.draws_normals}};
   std::string lines;
   for (const auto& [name, number] : numbers) lines += fmt::format("#define REDMAP_{} {}\n", name, number);
   for (const auto& [name, is_set] : flags)

@@ -14,6 +14,7 @@ enum class SurfaceKind { kMesh, kSphere, kCylinder };
 /// What an object's texts depend on.
 struct ObjectTraits {
   SurfaceKind surface = SurfaceKind::kMesh;
+  bool posed = false;         ///< a deformed mesh
   bool shadows = false;       ///< whether any light casts some
   bool layers = false;        ///< whether any object of the scene lets light pass
   bool passes_light = false;  ///< whether this one does, and there are shadows
@@ -36,10 +37,10 @@ enum class ShadeStage : std::uint32_t { kBind, kNear, kFar, kSpread, kPass };
 inline constexpr int kShadeStages = 5;
 
 std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind);
-std::string sort_text(SurfaceKind surface, bool layers);
+std::string sort_text(const ObjectTraits& traits);
 std::string group_text();
 /// Only in layers.
-std::string receive_text(SurfaceKind surface);
+std::string receive_text(const ObjectTraits& traits);
 std::string advance_text();
 std::string resolve_text(bool layers);
 

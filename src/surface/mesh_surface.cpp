@@ -268,6 +268,7 @@ class PosedMeshSurface final : public Surface {
   std::uint32_t chart(std::uint32_t triangle) const override { return rest_.chart(triangle); }
   std::optional<AnalyticHit> intersect(Vec3, Vec3, float, float) const override { return std::nullopt; }
   const TriangleMesh* mesh() const override { return posed_.mesh(); }
+  const TriangleMesh* mesh_at_rest() const override { return rest_.mesh(); }
   const Seams* seams() const override { return rest_.seams(); }
   Vec3 lower() const override { return posed_.lower(); }
   Vec3 upper() const override { return posed_.upper(); }

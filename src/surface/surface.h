@@ -79,6 +79,8 @@ class Surface {
   };
   virtual std::optional<AnalyticHit> intersect(Vec3 origin, Vec3 direction, float t_near, float t_far) const = 0;
   virtual const TriangleMesh* mesh() const { return nullptr; }
+  /// Meshes: the same triangles before any deformation.
+  virtual const TriangleMesh* mesh_at_rest() const { return mesh(); }
   /// Meshes: where their charts end, and how the surface goes on.
   virtual const Seams* seams() const { return nullptr; }
 

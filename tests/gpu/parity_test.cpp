@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "shader/shader.h"
@@ -25,17 +26,36 @@ TEST_P(LibraryOnDevice, LooksAsOnTheCpuFromEverywhere) {
     EXPECT_LE(row.rmse, .002) << row.distance << " texels across a pixel, largest error " << row.max_error;
 }
 
-/// Charts, seams and clusters of an atlas.
-TEST(MeshOnDevice, LooksAsOnTheCpuFromEverywhere) {
+TriangleMesh unwrapped_torus() {
   TriangleMesh mesh = torus(64, 32, 1, 0.4f);
   unwrap(mesh);
   compute_normals(mesh);
+  return mesh;
+}
+
+/// Charts, seams and clusters of an atlas.
+TEST(MeshOnDevice, LooksAsOnTheCpuFromEverywhere) {
   bench::ParityOptions options;
   options.shaders = {"noise", "stone", "transparent"};
-  for (const bench::ParityRow& row : bench::measure_parity(make_mesh_surface(std::move(mesh)), options))
+  for (const bench::ParityRow& row : bench::measure_parity(make_mesh_surface(unwrapped_torus()), options))
     EXPECT_LE(row.rmse, row.shader == "transparent" ? .002 : .001)
         << row.shader << " at " << row.distance << ", largest error " << row.max_error;
 }
+
+/// Bent and stretched, so that frames at rest are others: black boxes, normals and grains of the shader's own, and
+/// glass.
+TEST(DeformedMeshOnDevice, LooksAsOnTheCpuFromEverywhere) {
+  PosedMesh mesh{unwrapped_torus(), unwrapped_torus()};
+  for (Vec3& p : mesh.posed.positions) {
+    const float turn = 0.8f * p.y + 0.5f * p.x;
+    p = {1.2f * p.x, p.y * std::cos(turn) - p.z * std::sin(turn), p.y * std::sin(turn) + p.z * std::cos(turn)};
+  }
+  mesh.posed.normals.clear();
+  const auto surface = make_posed_surface(std::move(mesh));
+  bench::ParityOptions options;
+  options.shaders = {"noise", "toon_black_box", "raised_scales", "scratched_metal", "transparent"};
+  options.distances = {0.4, 6};
+  for (const bench::ParityRow& row : bench::measure_parity(surface, options)) }
 
 }  // namespace
 }  // namespace redmap

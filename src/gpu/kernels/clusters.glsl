@@ -16,9 +16,15 @@ struct RedmapKernel {
   float largest_variance, smallest_variance;
 };
 RedmapKernel redmap_kernel(RedmapHit hit) {
-  // Clusters face outwards.
-  vec3 outward = hit.turned ? -hit.normal : hit.normal;
+  // Clusters face outwards, and are those of the surface at rest.
+  vec3 position = hit.position, outward = hit.turned ? -hit.normal : hit.normal;
   vec3 x = hit.dp_du * hit.duv_dx.x + hit.dp_dv * hit.duv_dx.y, y = hit.dp_du * hit.duv_dy.x + hit.dp_dv * hit.duv_dy.y;
+#ifdef REDMAP_POSED
+  position = hit.rest_position;
+  outward = hit.turned ? -hit.rest_normal : hit.rest_normal;
+#endif
+  x = redmap_at_rest(hit, x);
+  y = redmap_at_rest(hit, y);
   float xx = dot(x, x), yy = dot(y, y), longer = max(xx, yy), area = length(cross(x, y));
   mat3 variance = (outerProduct(x, x) + outerProduct(y, y) + longer * outerProduct(outward, outward) +
                    mat3(redmap_cluster_round * longer)) * (1.0 / 12.0);
@@ -26,7 +32,7 @@ RedmapKernel redmap_kernel(RedmapHit hit) {
   vec3 a = cross(variance[1], variance[2]), b = cross(variance[2], variance[0]), c = cross(variance[0], variance[1]);
   float determinant = dot(variance[0], a);
   float smallest = longer > 0.0 ? max(area * area / longer, redmap_cluster_round * longer) / 12.0 : 0.0;
-  return RedmapKernel(hit.position, outward, mat3(a / determinant, b / determinant, c / determinant),
+  return RedmapKernel(position, outward, mat3(a / determinant, b / determinant, c / determinant),
                       (longer + xx + yy) / 12.0, smallest);
 }
 

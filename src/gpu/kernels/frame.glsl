@@ -24,6 +24,9 @@ layout(push_constant) uniform RedmapBand {
 const uint redmap_near = 0u;    // the shader itself
 const uint redmap_far = 1u;     // looked up
 const uint redmap_spread = 2u;  // looked up, and normals turn enough to change highlights
+// Set in the number of a sample that is looked up and blended with the shader itself. Decided once: another kernel that
+// rounds otherwise would read what nobody wrote.
+const uint redmap_in_both = 0x80000000u;
 layout(std430, binding = 3) buffer RedmapLists {
   uint redmap_counts[4];       // while sorting; the last: what a shader did wrong
   uvec4 redmap_groups[3];      // workgroups, and w: how many samples

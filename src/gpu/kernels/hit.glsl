@@ -2,9 +2,31 @@
 layout(binding = 10) uniform usampler2DArray redmap_seen;  // numbers of triangles
 
 #if REDMAP_SURFACE == 0
-// Two vec4 a vertex: position, normal, uv.
+// Two vec4 a vertex: position, normal, uv. Deformed meshes have as many again, at rest.
+#ifdef REDMAP_POSED
+const uint redmap_face_vectors = 12u;
+#else
 const uint redmap_face_vectors = 6u;
+#endif
 layout(std430, binding = 2) readonly buffer RedmapFaces { vec4 redmap_faces[]; };
+
+#ifdef REDMAP_POSED
+// `first`: of the face at rest; `weights`: of its vertices 1 and 2.
+void redmap_complete_rest(uint first, vec2 weights, inout RedmapHit hit) {
+  vec4 a0 = redmap_faces[first], a1 = redmap_faces[first + 1u];
+  vec4 b0 = redmap_faces[first + 2u], b1 = redmap_faces[first + 3u];
+  vec4 c0 = redmap_faces[first + 4u], c1 = redmap_faces[first + 5u];
+  vec3 e1 = b0.xyz - a0.xyz, e2 = c0.xyz - a0.xyz;
+  hit.rest_position = a0.xyz + e1 * weights.x + e2 * weights.y;
+  vec3 normal = vec3(a0.w, a1.xy) * (1.0 - weights.x - weights.y) + vec3(b0.w, b1.xy) * weights.x +
+                vec3(c0.w, c1.xy) * weights.y;
+  hit.rest_normal = normalize(dot(normal, normal) > 0.0 ? normal : cross(e1, e2));
+  vec2 t1 = b1.zw - a1.zw, t2 = c1.zw - a1.zw;
+  float determinant = t1.x * t2.y - t1.y * t2.x;
+  vec3 along_u = determinant != 0.0 ? (e1 * t2.y - e2 * t1.y) / determinant : e1;
+  hit.rest_tangent = redmap_perpendicular(hit.rest_normal, along_u);
+}
+#endif
 
 void redmap_complete(uint triangle, vec3 origin, vec3 direction, inout RedmapHit hit) {
   uint first = redmap_face_vectors * triangle;
@@ -41,6 +63,9 @@ void redmap_complete(uint triangle, vec3 origin, vec3 direction, inout RedmapHit
   hit.dn_du = (hit.dn_du - hit.normal * dot(hit.normal, hit.dn_du)) * unblend;
   hit.dn_dv = (hit.dn_dv - hit.normal * dot(hit.normal, hit.dn_dv)) * unblend;
   hit.tangent = redmap_perpendicular(hit.normal, hit.dp_du);
+#ifdef REDMAP_POSED
+  redmap_complete_rest(first + 6u, vec2(u, v), hit);
+#endif
 }
 #else
 const float redmap_pi = 3.14159265;
@@ -114,6 +139,9 @@ RedmapHit redmap_hit(uint number, uvec2 place) {
   if (hit.turned) {
     hit.normal = -hit.normal;
     hit.geometric = -hit.geometric;
+#ifdef REDMAP_POSED
+    hit.rest_normal = -hit.rest_normal;
+#endif
   }
   redmap_find_footprint(unnormalised, eye, hit);
   return hit;

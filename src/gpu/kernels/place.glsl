@@ -40,7 +40,11 @@ vec3 redmap_unhidden(uint b, vec3 v) {
 }
 #endif
 Surface redmap_hit_place(RedmapHit hit) {
+#ifdef REDMAP_POSED
+  return Surface(hit.rest_position, hit.rest_normal, hit.rest_tangent, hit.uv, redmap_eye.w);
+#else
   return Surface(hit.position, hit.normal, hit.tangent, hit.uv, redmap_eye.w);
+#endif
 }
 
 // Directions in the frame whose x is `tangent` and z is `normal`.

@@ -20,11 +20,11 @@ vec3 redmap_original(RedmapHit redmap_hit_) {
   Surface redmap_at = redmap_hit_place(redmap_hit_);
   vec3 redmap_n = redmap_hit_.normal, redmap_t = redmap_hit_.tangent;
 #ifdef REDMAP_PERTURBS
-  redmap_n = shading_normal(redmap_at, redmap_parameters);
+  redmap_n = redmap_posed(redmap_hit_, shading_normal(redmap_at, redmap_parameters));
   redmap_ended(1u);
 #endif
 #ifdef REDMAP_TURNS
-  redmap_t = normalize(shading_tangent(redmap_at, redmap_parameters));
+  redmap_t = redmap_posed(redmap_hit_, normalize(shading_tangent(redmap_at, redmap_parameters)));
   redmap_ended(6u);
 #endif
 #if defined(REDMAP_PERTURBS) || defined(REDMAP_TURNS)
@@ -47,7 +47,8 @@ vec3 redmap_original(RedmapHit redmap_hit_) {
     vec3 redmap_l;
     vec3 redmap_e = redmap_arriving(redmap_i, redmap_hit_, redmap_l);
 #ifdef REDMAP_BLACK_BOX
-    redmap_sum += redmap_e * radiance(redmap_at, redmap_parameters, redmap_l, redmap_hit_.to_viewer);
+    redmap_sum += redmap_e * radiance(redmap_at, redmap_parameters, redmap_at_rest(redmap_hit_, redmap_l),
+                                      redmap_at_rest(redmap_hit_, redmap_hit_.to_viewer));
 #else
     redmap_sum += redmap_e * radiance(redmap_m, redmap_in_frame(redmap_l, redmap_n, redmap_t),
                                       redmap_in_frame(redmap_hit_.to_viewer, redmap_n, redmap_t));

@@ -40,7 +40,7 @@ void main() {
 #endif
   uint redmap_list = redmap_stage - redmap_near_stage;
   if (redmap_i >= redmap_groups[redmap_list].w) return;
-  uint redmap_sample = redmap_listed(redmap_list, redmap_i);
+  uint redmap_entry = redmap_listed(redmap_list, redmap_i), redmap_sample = redmap_entry & ~redmap_in_both;
   uvec2 redmap_at = redmap_place_of(redmap_sample);
   RedmapHit redmap_hit_ = redmap_hit(texelFetch(redmap_seen, ivec3(redmap_at, 0), 0).x - redmap_numbers.x, redmap_at);
 #ifdef REDMAP_LAYERS
@@ -58,8 +58,8 @@ void main() {
 #if REDMAP_CHANNELS > 0
   if (redmap_stage != redmap_near_stage) {
     RedmapAxes redmap_a = redmap_axes(redmap_hit_.duv_dx, redmap_hit_.duv_dy);
-    float redmap_p = redmap_part(redmap_a);
-    redmap_keep(redmap_sample, redmap_filtered(redmap_hit_, redmap_a, redmap_sample), redmap_p, redmap_p < 1.0);
+    redmap_keep(redmap_sample, redmap_filtered(redmap_hit_, redmap_a, redmap_sample), redmap_part(redmap_a),
+                redmap_entry != redmap_sample);
   }
 #endif
 }

@@ -41,7 +41,8 @@ void main() {
       else
         bits.y &= bits.y - 1u;
       uint to = list == redmap_near ? next : (list == redmap_far ? all + next : 2u * all - 1u - next);
-      redmap_samples[to] = (corner.y + (i >> 3u)) * redmap_picture.x + corner.x + (i & 7u);
+      bool is_both = list != redmap_near && ((i < 32u ? lists[0].x >> i : lists[0].y >> (i - 32u)) & 1u) != 0u;
+      redmap_samples[to] = (is_both ? redmap_in_both : 0u) | ((corner.y + (i >> 3u)) * redmap_picture.x + corner.x + (i & 7u));
       next++;
     }
   }
