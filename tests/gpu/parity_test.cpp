@@ -55,7 +55,9 @@ TEST(DeformedMeshOnDevice, LooksAsOnTheCpuFromEverywhere) {
   bench::ParityOptions options;
   options.shaders = {"noise", "toon_black_box", "raised_scales", "scratched_metal", "transparent"};
   options.distances = {0.4, 6};
-  for (const bench::ParityRow& row : bench::measure_parity(surface, options)) }
+  for (const bench::ParityRow& row : bench::measure_parity(surface, options))
+    EXPECT_LE(row.rmse, .002) << row.shader << " at " << row.distance << ", largest error " << row.max_error;
+}
 
 }  // namespace
 }  // namespace redmap
