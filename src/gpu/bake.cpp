@@ -135,6 +135,9 @@ class DevicePasses final : public TexelPasses {
   // Made by sample(), so that a bake's report has the time it takes.
   std::optional<BakeKernels> kernels_;
   std::optional<ComputePipeline> keys_;
+  // For a basis of these reflectances: as many texels as differ are averaged by it after all that are unknown.
+  std::optional<ComputePipeline> weights_;
+  std::vector<float> weights_basis_;
 };
 
 /// Rasterizes the tiles of a batch.
@@ -278,8 +281,10 @@ ProjectedPoints DevicePasses::average(const BakeJob& job, const SampledTexels& s
   const auto batches = make_batches(job.grid, wanted, with.offsets.size(), most);
   const int size = basis.reflectances.size();
   const DeviceBuffer known_buffer = upload(*kernels_->device(), known_table(known, size, with.call.known_slots));
-  std::optional<ComputePipeline> weights;
-  if (!with.by_keys) weights.emplace(kernels_->weights(sampled, basis));
+  if (!with.by_keys && weights_basis_ != basis.scaled) {
+    weights_.emplace(kernels_->weights(sampled, basis));
+    weights_basis_ = basis.scaled;
+  }
 
   ProjectedPoints projected(sampled.sampler.rows());
   std::vector<AverageSlot> slots(pipeline_slots());
@@ -288,8 +293,8 @@ ProjectedPoints DevicePasses::average(const BakeJob& job, const SampledTexels& s
     slot.residual = slot.outlier_residual = 0, slot.outlier_texels.clear();
     if (job.monitor.stopped()) return;
     if (!slot.batch)
-      slot.batch.emplace(*kernels_, weights ? *weights : *keys_, known_buffer, most,
-                         weights ? 4 * weight_vectors(size) : 2);
+      slot.batch.emplace(*kernels_, with.by_keys ? *keys_ : *weights_, known_buffer, most,
+                         with.by_keys ? 2 : 4 * weight_vectors(size));
     average_batch(job, batches[index], with, base, slot);
   };
   parallel_pipeline(batches.size(), produce, [&](std::size_t index, std::size_t i) {

@@ -28,9 +28,9 @@ struct ShaderProgram::Workspace {
 
 struct ShaderProgram::OnDevice {
   std::shared_ptr<Device> device;
-  std::array<std::unique_ptr<ComputePipeline>, kStages> pipelines;
   std::vector<DeviceImage> images;
   std::mutex mutex;
+  std::array<std::unique_ptr<ComputePipeline>, kStages> pipelines;  ///< made when first asked for: many need but one
   std::vector<std::unique_ptr<Workspace>> idle;
 };
 
@@ -75,10 +75,17 @@ ShaderProgram::OnDevice& ShaderProgram::on_device() const {
   auto made = std::make_unique<OnDevice>();
   made->device = Device::open(device_);
   for (const Image& image : images_) made->images.emplace_back(*made->device, image);
-  for (std::uint32_t stage = 0; stage < kStages; ++stage)
-    made->pipelines[stage] = std::make_unique<ComputePipeline>(*made->device, spirv_, inputs(images_.size()), stage);
   on_device_ = std::move(made);
   return *on_device_;
+}
+
+ComputePipeline& ShaderProgram::pipeline(OnDevice& on, Stage stage) const {
+  const std::scoped_lock lock(on.mutex);
+  std::unique_ptr<ComputePipeline>& made = on.pipelines[static_cast<std::size_t>(stage)];
+  if (!made)
+    made = std::make_unique<ComputePipeline>(*on.device, spirv_, inputs(images_.size()),
+                                             static_cast<std::uint32_t>(stage));
+  return *made;
 }
 
 void ShaderProgram::run(Stage stage, StageCall call, const InputRows& in, std::span<std::byte> patterns,
@@ -104,7 +111,7 @@ std::uint32_t ShaderProgram::dispatch(OnDevice& on, Stage stage, const StageCall
   Lease lease(on);
   Workspace& workspace = *lease;
   std::unique_ptr<ComputeTask>& task = workspace.tasks[static_cast<std::size_t>(stage)];
-  if (!task) task = std::make_unique<ComputeTask>(*on.pipelines[static_cast<std::size_t>(stage)]);
+  if (!task) task = std::make_unique<ComputeTask>(pipeline(on, stage));
 
   const std::size_t row_bytes = call.places * sizeof(float), in_bytes = in.count * sizeof(float);
   const std::size_t sizes[kStageBuffers] = {parameters_.size(), in.rows.size() * in_bytes, patterns.size(),

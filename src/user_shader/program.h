@@ -40,6 +40,7 @@ class ShaderProgram {
   struct OnDevice;
   class Lease;
   OnDevice& on_device() const;
+  ComputePipeline& pipeline(OnDevice& on, Stage stage) const;
   /// Returns the status (stages.h).
   std::uint32_t dispatch(OnDevice& on, Stage stage, const StageCall& call, const InputRows& in,
                          std::span<std::byte> patterns, std::span<float* const> out) const;
