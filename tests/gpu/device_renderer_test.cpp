@@ -280,7 +280,7 @@ ObjectData averaged(const Object& ball, int size) {
 }
 
 TEST(DeviceRenderer, AveragedParameters_LookAsOnTheCpu) {
-  for (const char* name : {"checker", "stone", "brick", "scales"}) {
+  for (const char* name : {"checker", "stone", "brick", "scales", "transparent"}) {
     Scene scene = ball_scene(make_library_shader(name), 96);
     scene.lights = {lamp({3, 3, 5}, 60), lamp({-4, 1, 5}, 20)};
     const ObjectData data = averaged(scene.objects[0], 512);
