@@ -51,7 +51,7 @@ std::string parameters_text(const Shader& shader) {
 
 std::string constants_text(const ExportInput& input, const ObjectTraits& traits) {
   ObjectBlock block;
-  set_map_block(*input.map, block);
+  set_map_block(*input.map, traits.is_fast, block);
   std::string text = trait_definitions(traits);
   text += fmt::format("const vec4 redmap_map = {};\n", vec4_text(block.map));
   std::vector<std::string> scales;
@@ -81,7 +81,7 @@ std::string include_text(const ExportInput& input, const DeviceShader& shader, c
   text += kernel_texts({"hit_type", "footprint", "place", "lookup", "lobes"});
   text += map_parts_text(traits);
   text += shader_text_body(shader.sources, info, 0);
-  text += parameters_text(*input.shader) + std::string(kGlslPatterns) + kernel_texts({"bind", "shade"});
+  text += parameters_text(*input.shader) + std::string(kGlslPatterns) + kernel_texts({"bind", "shade", "unmixed"});
   text += kernel_texts({"shade_map", "shade_spread", traits.has_normals ? "shade_normals" : "shade_turning"});
   return without_lines(text + std::string(kGlslAfter));
 }

@@ -96,7 +96,7 @@ DeviceObject::Geometry DeviceObject::make_geometry() const {
 /// With what else it takes to read them.
 LayeredTexture DeviceObject::make_texels(const ObjectData& data) {
   if (data.map) {
-    set_map_traits(*data.map, *surface_, traits_), set_map_block(*data.map, values_);
+    set_map_traits(*data.map, *surface_, traits_), set_map_block(*data.map, traits_.is_fast, values_);
     data_ = LocalBuffer(*device_, bytes_of_all(map_data(*data.map, *surface_, traits_)));
     return make_weight_texture(*device_, *data.map);
   }
@@ -111,7 +111,7 @@ ObjectTraits DeviceObject::first_traits(const Object& object, const SceneTraits&
   ObjectTraits traits;
   traits.surface = kind_of(*object.surface);
   traits.posed = is_posed(*object.surface);
-  traits.shadows = scene.shadows, traits.layers = scene.layers;
+  traits.shadows = scene.shadows, traits.layers = scene.layers, traits.is_fast = scene.is_fast;
   traits.passes_light = scene.shadows && object.shader->info().transmits;
   return traits;
 }
@@ -120,6 +120,8 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, const Obj
                            std::uint32_t first_number, std::uint32_t index)
     : device_(cache.device()),
       surface_(object.surface),
+      shader_(object.shader),
+      text_(shader_for(object)),
       traits_(first_traits(object, scene)),
       transform_(object.transform),
       geometry_(make_geometry()),
@@ -127,12 +129,11 @@ DeviceObject::DeviceObject(PipelineCache& cache, const Object& object, const Obj
       parameters_(*device_, std::size_t{4}),
       patterns_(*device_, std::size_t{4}),
       data_(*device_, std::size_t{4}) {
-  const DeviceShader shader = shader_for(object);
   transmits_ = object.shader->info().transmits;
   texels_.push_back(make_texels(data));
   set_block(first_number, index);
-  for (const Image& image : shader.images) images_.emplace_back(*device_, image);
-  make_kernels(cache, shader, object.shader->info());
+  for (const Image& image : text_.images) images_.emplace_back(*device_, image);
+  make_kernels(cache);
 }
 
 void DeviceObject::set_block(std::uint32_t first_number, std::uint32_t index) {
@@ -146,27 +147,50 @@ void DeviceObject::set_block(std::uint32_t first_number, std::uint32_t index) {
   values_.numbers.w = index;
 }
 
-void DeviceObject::make_kernels(PipelineCache& cache, const DeviceShader& shader, const ShaderInfo& info) {
-  const PipelineInputs inputs{kObjectBuffers, kObjectBindings - kObjectBuffers + static_cast<int>(images_.size()),
-                              sizeof(BandCall)};
+void DeviceObject::make_kernels(PipelineCache& cache) {
+  inputs_ = {kObjectBuffers, kObjectBindings - kObjectBuffers + static_cast<int>(images_.size()), sizeof(BandCall)};
   draw_numbers_ = &cache.draw(traits_.surface, traits_.layers ? TargetKind::kLayers : TargetKind::kNumbers);
   draw_depth_ = &cache.draw(traits_.surface, TargetKind::kDepth);
-  sort_ = &cache.compute(sort_text(traits_), inputs);
-  group_ = &cache.compute(group_text(), inputs);
-  if (traits_.layers && traits_.shadows) receive_ = &cache.compute(receive_text(traits_), inputs);
-  const ShaderSources text = shade_text(shader, info, traits_);
-  for (int i = 0; i < kShadeStages; ++i)
-    if (const auto stage = static_cast<ShadeStage>(i); needs(stage))
-      shade_[i] = &cache.shade(text, !info.file.empty(), inputs, stage);
-  parameters_ = LocalBuffer(*device_, std::span<const std::byte>(shader.parameters));
-  if (traits_.basis > 0) patterns_ = LocalBuffer(*device_, cache.pattern_size(text) * traits_.basis);
+  sort_ = &cache.compute(sort_text(traits_), inputs_);
+  group_ = &cache.compute(group_text(), inputs_);
+  if (traits_.layers && traits_.shadows) receive_ = &cache.compute(receive_text(traits_), inputs_);
+  parameters_ = LocalBuffer(*device_, std::span<const std::byte>(text_.parameters));
+  if (traits_.basis == 0) return;
+  const ShaderInfo& info = shader_->info();
+  const ShaderSources text = bind_text(text_, info, traits_);
+  const auto make = [&](ShadeStage stage) {
+    shade_[static_cast<int>(stage)] = &cache.shade(text, !info.file.empty(), inputs_, stage);
+  };
+  make(ShadeStage::kBind);
+  if (may_mix(text_, info, traits_)) make(ShadeStage::kMix);
+  patterns_ = LocalBuffer(*device_, cache.pattern_size(text) * traits_.basis);
+}
+
+/// What the device wrote, unless no two reflectances mix.
+void DeviceObject::find_groups() {
+  if (!groups_) return;
+  std::vector<std::uint32_t> words(groups_->size() / sizeof(std::uint32_t));
+  std::memcpy(words.data(), groups_->data(), groups_->size());
+  std::vector<int> groups(words.begin() + kListsHead, words.end());
+  if (*std::ranges::max_element(groups) + 1 < traits_.basis) traits_.groups = std::move(groups);
+  groups_.reset();
+}
+
+void DeviceObject::prepare(PipelineCache& cache) {
+  if (shade_[static_cast<int>(ShadeStage::kNear)]) return;
+  find_groups();
+  const ShaderInfo& info = shader_->info();
+  const ShaderSources text = shade_text(text_, info, traits_);
+  for (const ShadeStage stage : {ShadeStage::kNear, ShadeStage::kFar, ShadeStage::kSpread, ShadeStage::kPass})
+    if (needs(stage)) shade_[static_cast<int>(stage)] = &cache.shade(text, !info.file.empty(), inputs_, stage);
 }
 
 /// The shader itself needs one stage; parameters and maps with normals shade all that is filtered in one.
 bool DeviceObject::needs(ShadeStage stage) const {
   switch (stage) {
     case ShadeStage::kBind:
-      return traits_.basis > 0;
+    case ShadeStage::kMix:  // made by themselves
+      return false;
     case ShadeStage::kNear:
       return true;
     case ShadeStage::kFar:  // a grain is drawn wherever it is
@@ -193,6 +217,11 @@ void DeviceObject::attach(const FrameMemory& memory, CommandList& commands) {
   for (const DeviceImage& image : images_) bindings_->add(image);
   if (const ComputePipeline* bind = shade_[static_cast<int>(ShadeStage::kBind)])
     commands.dispatch(*bind, *bindings_, bytes_of(BandCall{}), Workgroups{1, 1});
+  const ComputePipeline* mix = shade_[static_cast<int>(ShadeStage::kMix)];
+  if (!mix || shade_[static_cast<int>(ShadeStage::kNear)]) return;
+  commands.dispatch(*mix, *bindings_, bytes_of(BandCall{}), Workgroups{1, 1});
+  groups_ = std::make_unique<DeviceBuffer>(*device_, sizeof(std::uint32_t) * (kListsHead + traits_.basis));
+  commands.copy(*memory.lists, *groups_, groups_->size());
 }
 
 void DeviceObject::place(const Transform& transform) {

@@ -44,6 +44,7 @@ struct FrameMemory {
 struct SceneTraits {
   bool shadows = false;  ///< whether any light casts some
   bool layers = false;   ///< whether any object lets light pass
+  bool is_fast = false;  ///< whether frames are to be fast rather than the CPU's
 };
 
 class DeviceObject {
@@ -58,8 +59,10 @@ class DeviceObject {
   std::uint32_t numbers() const { return values_.numbers.y; }
   bool transmits() const { return transmits_; }
 
-  /// To be called once, before the first frame. Binds the basis on the device.
+  /// To be called before the first frame and when that memory has changed. Binds the basis on the device.
   void attach(const FrameMemory& memory, CommandList& commands);
+  /// To be called when what attach() recorded has run: makes what shades, by what the basis turned out to be like.
+  void prepare(PipelineCache& cache);
   /// Where it stands in this frame.
   void place(const Transform& transform);
   void record_upload(CommandList& commands) const { block_.record_upload(commands); }
@@ -82,12 +85,16 @@ class DeviceObject {
   static ObjectTraits first_traits(const Object& object, const SceneTraits& scene);
   bool needs(ShadeStage stage) const;
   void set_block(std::uint32_t first_number, std::uint32_t index);
-  void make_kernels(PipelineCache& cache, const DeviceShader& shader, const ShaderInfo& info);
+  void make_kernels(PipelineCache& cache);
   LayeredTexture make_texels(const ObjectData& data);
+  void find_groups();
   bool cover(BandCall& call, const CameraRays& camera, int samples_a_side, int columns) const;
 
   std::shared_ptr<Device> device_;
   std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const Shader> shader_;
+  DeviceShader text_;
+  PipelineInputs inputs_;
   ObjectTraits traits_;
   ObjectBlock values_;
   Transform transform_;
@@ -102,6 +109,7 @@ class DeviceObject {
   const GraphicsPipeline *draw_numbers_ = nullptr, *draw_depth_ = nullptr;
   const ComputePipeline *sort_ = nullptr, *group_ = nullptr, *receive_ = nullptr;
   const ComputePipeline* shade_[kShadeStages] = {};
+  std::unique_ptr<DeviceBuffer> groups_;  ///< as they come back, after the counts of the lists
   std::unique_ptr<Bindings> number_bindings_, depth_bindings_, bindings_;
 };
 

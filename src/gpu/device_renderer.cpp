@@ -115,7 +115,7 @@ FrameTargets::FrameTargets(const Device& device, const ComputePipeline& resolve,
       bands((extent.height * samples + band_rows - 1) / band_rows),
       frame(device, sizeof(FrameBlock)),
       views(device, sizeof(ViewBlock) * (shadow_layers + bands)),
-      lists(device, 16 * sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) * columns * band_rows),
+      lists(device, sizeof(std::uint32_t) * (kListsHead + std::max(2 * columns * band_rows, kMaxChannels))),
       radiance(device, 3 * sizeof(float) * columns * band_rows),
       picture(device, sizeof(Vec4) * extent.width * extent.height),
       paths(device, advance ? path_bytes(scene) * columns * band_rows : 4),
@@ -173,6 +173,7 @@ DeviceRenderer::Impl::Impl(std::shared_ptr<Device> opened, const Scene& scene, c
       cache(device),
       resolve(cache.compute(resolve_text(traits.layers), {kObjectBuffers, 1, sizeof(BandCall)})),
       commands(*device) {
+  traits.is_fast = chosen.quality == Quality::kFast;
   if (traits.layers) advance = &cache.compute(advance_text(), {kObjectBuffers, 2, sizeof(BandCall)});
   std::uint32_t next = 1;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -197,6 +198,7 @@ void DeviceRenderer::Impl::make_targets(const Scene& scene) {
   commands.begin_target(targets->seen), commands.end_target();
   for (DeviceObject& object : objects) object.attach(memory, commands);
   commands.run(kTimeout);
+  for (DeviceObject& object : objects) object.prepare(cache);
 }
 
 void DeviceRenderer::Impl::record_uploads(const Scene& scene, int frame) {

@@ -54,6 +54,9 @@ struct BandCall {
   std::uint32_t first_row = 0, rows = 0, filters = 0, draws = 0;
 };
 
+/// Words of RedmapLists before its samples.
+inline constexpr int kListsHead = 16;
+
 /// Storage buffers and pictures of all pipelines of an object, by binding; its shader's images follow.
 enum ObjectBinding {
   kFrameBinding,

@@ -18,12 +18,16 @@ LobeModel model_of(const ReductionMap& map, std::size_t basis) {
   return basis < map.lobes.size() ? map.lobes[basis] : LobeModel{};
 }
 
-/// The variance of normals from which on some highlight changes.
-float least_spread(const ReductionMap& map) {
-  float narrowest = 1;
-  for (std::size_t b = 0; b < map.basis.size(); ++b)
-    narrowest = std::min(narrowest, narrowest_highlight(model_of(map, b)));
-  return kSpreadBegin * kSpreadBegin * narrowest * narrowest;
+/// The variance of normals up to which few of them say what a highlight becomes. Edges of what no model fits are no
+/// polynomials either.
+float most_variance(const ReductionMap& map, bool is_fast) {
+  float narrowest = 1, few = is_fast ? kFewNormalsFast : kFewNormals;
+  for (std::size_t b = 0; b < map.basis.size(); ++b) {
+    const LobeModel model = model_of(map, b);
+    narrowest = std::min(narrowest, narrowest_highlight(model));
+    if (model.error > kTrustedError) few = kSpreadBegin;
+  }
+  return few * few * narrowest * narrowest;
 }
 
 using Words = std::vector<std::uint32_t>;
@@ -129,13 +133,13 @@ void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTrait
   }
 }
 
-void set_map_block(const ReductionMap& map, ObjectBlock& block) {
+void set_map_block(const ReductionMap& map, bool is_fast, ObjectBlock& block) {
   const Extent extent = map.weights.extent(0);
   // With normals one kernel does it all; a grain is drawn wherever it is.
-  const float least = !map.normals.empty() ? 1e30f : !map.tangents.empty() ? -1.0f : least_spread(map);
+  const float most = !map.normals.empty() ? 1e30f : !map.tangents.empty() ? -1.0f : most_variance(map, is_fast);
   block.numbers.z = static_cast<std::uint32_t>(map.basis.size());
   block.map = {static_cast<float>(extent.width), static_cast<float>(extent.height),
-               static_cast<float>(map.weights.levels()), least};
+               static_cast<float>(map.weights.levels()), most};
   float scales[kMaxChannels] = {};
   std::ranges::copy(map.weights.scales(), scales);
   for (int i = 0; i < kMaxChannels / 4; ++i)

@@ -23,7 +23,7 @@ bool is_covered(const Pyramid<Component>& pyramid) {
 /// What the texts of an object with this map depend on.
 void set_map_traits(const ReductionMap& map, const Surface& surface, ObjectTraits& traits);
 /// The map's part of an object's block.
-void set_map_block(const ReductionMap& map, ObjectBlock& block);
+void set_map_block(const ReductionMap& map, bool is_fast, ObjectBlock& block);
 
 /// Weights, four to a layer, multiplied by coverage where there is any; coverage follows the last. Level after level,
 /// layer after layer, rows from v = 0 up.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "device/commands.h"
 #include "device/glsl_compiler.h"
@@ -18,6 +19,7 @@ struct ObjectTraits {
   bool shadows = false;       ///< whether any light casts some
   bool layers = false;        ///< whether any object of the scene lets light pass
   bool passes_light = false;  ///< whether this one does, and there are shadows
+  bool is_fast = false;       ///< few normals stand for integrals over wider spreads
   int basis = 0;              ///< 0: no map
   int channels = 0;           ///< of what is looked up: the basis, or averaged parameters; 0: the shader itself
   int first_slope = 0;        ///< channel of the slopes of normals; 0: none
@@ -30,11 +32,12 @@ struct ObjectTraits {
   int widths = 1;              ///< most Gaussians of a lobe model
   std::size_t leaves = 0;      ///< of the map's clusters, where they are used
   bool mends_seams = false;    ///< footprints may reach over seams of the map's atlas
+  std::vector<int> groups;     ///< of basis reflectances that are mixed before they are asked; empty: none are
 };
 
 /// Stages of shading: values of specialization constant 0.
-enum class ShadeStage : std::uint32_t { kBind, kNear, kFar, kSpread, kPass };
-inline constexpr int kShadeStages = 5;
+enum class ShadeStage : std::uint32_t { kBind, kNear, kFar, kSpread, kPass, kMix };
+inline constexpr int kShadeStages = 6;
 
 std::string draw_text(SurfaceKind surface, GlslStage stage, TargetKind kind);
 std::string sort_text(const ObjectTraits& traits);
@@ -51,6 +54,10 @@ std::string map_parts_text(const ObjectTraits& traits);
 
 /// Of shaders of the user's own every loop asks `kShadeLoopGuard` before each round.
 inline constexpr const char* kShadeLoopGuard = "redmap_goes_on";
+/// Binds the basis, and finds the groups of its reflectances that mix (ShadeStage::kBind, kMix).
+ShaderSources bind_text(const DeviceShader& shader, const ShaderInfo& info, const ObjectTraits& traits);
+/// Whether there is anything to find: a pattern that can be mixed, in frames that are the same for all.
+bool may_mix(const DeviceShader& shader, const ShaderInfo& info, const ObjectTraits& traits);
 ShaderSources shade_text(const DeviceShader& shader, const ShaderInfo& info, const ObjectTraits& traits);
 
 }  // namespace redmap

@@ -173,6 +173,17 @@ TEST(DeviceRenderer, OneBasisALight_IsTheMapsPictureOnAverage) {
   EXPECT_LT(compare_images(mean, expected).rmse, one / 4);
 }
 
+TEST(DeviceRenderer, WoodMixesCoatings_SoThatOneCallALightIsTheMapsPicture) {
+  Scene scene = ball_scene(make_library_shader("wood"), 96);
+  scene.lights = {lamp({3, 3, 5}, 60)};
+  const Maps maps = {baked(scene.objects[0], 512)};
+  ASSERT_GT(maps.front().map->basis.size(), 1u);
+  DeviceRenderOptions options = by(Method::kMap);
+  const Image expected = on_device(scene, options, maps);
+  options.draws_one_basis = true;
+  EXPECT_LT(compare_images(on_device(scene, options, maps), expected).rmse, 0.001);
+}
+
 TEST(DeviceRenderer, SameFrame_SameBytes_AlsoAfterAnotherSize) {
   Scene scene = ball_scene(make_library_shader("stone"));
   scene.lights = {lamp({3, 3, 5}, 60)};

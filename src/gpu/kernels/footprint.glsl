@@ -24,14 +24,19 @@ float redmap_part(RedmapAxes axes) {
   return clamp((axes.major - redmap_blend_begin) / (redmap_blend_end - redmap_blend_begin), 0.0, 1.0);
 }
 
-// Covariance of the interpolated normal within the footprint, a box, over the shading frame's x and y.
-vec3 redmap_curvature(RedmapHit hit) {
+// How the interpolated normal turns over the footprint, a box, from one side to the other, in the shading frame: x and y
+// along the picture's x, then along its y.
+vec4 redmap_turning(RedmapHit hit) {
   vec3 bitangent = cross(hit.normal, hit.tangent);
   vec3 along_x = hit.dn_du * hit.duv_dx.x + hit.dn_dv * hit.duv_dx.y;
   vec3 along_y = hit.dn_du * hit.duv_dy.x + hit.dn_dv * hit.duv_dy.y;
-  vec2 x = vec2(dot(along_x, hit.tangent), dot(along_x, bitangent));
-  vec2 y = vec2(dot(along_y, hit.tangent), dot(along_y, bitangent));
-  float variance = (dot(x, x) + dot(y, y)) / 12.0;
-  float scale = min(1.0, redmap_largest_turn / max(variance, 1e-12)) / 12.0;
-  return scale * vec3(x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y);
+  vec4 turning = vec4(dot(along_x, hit.tangent), dot(along_x, bitangent), dot(along_y, hit.tangent), dot(along_y, bitangent));
+  float variance = dot(turning, turning) / 12.0;
+  return turning * sqrt(min(1.0, redmap_largest_turn / max(variance, 1e-12)));
+}
+
+// Its covariance.
+vec3 redmap_curvature(RedmapHit hit) {
+  vec4 t = redmap_turning(hit);
+  return vec3(t.x * t.x + t.z * t.z, t.x * t.y + t.z * t.w, t.y * t.y + t.w * t.w) / 12.0;
 }

@@ -5,7 +5,7 @@ layout(std430, binding = 1) readonly buffer RedmapObject {
   vec4 redmap_axis_z;
   vec4 redmap_shape;      // scale; radius; height; length of dp_du where a mesh's uv has no shape
   uvec4 redmap_numbers;   // the first of its numbers in the picture of numbers, and how many; basis reflectances; the object
-  vec4 redmap_map;        // columns, rows, levels; variance of normals from which on highlights change
+  vec4 redmap_map;        // columns, rows, levels; variance of normals from which on four do not say how highlights change
   vec4 redmap_scales[6];  // value of a full byte of each channel
   vec4 redmap_limits;     // how far above the surface rays leave it, in the world
 };

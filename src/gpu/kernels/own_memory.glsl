@@ -2,7 +2,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint redmap_stage = 0u;
 const uint redmap_bind_stage = 0u, redmap_near_stage = 1u, redmap_far_stage = 2u, redmap_spread_stage = 3u;
-const uint redmap_pass_stage = 4u;
+const uint redmap_pass_stage = 4u, redmap_mix_stage = 5u;
 
 layout(std430, binding = 7) readonly buffer RedmapData { uint redmap_data[]; };
 uint redmap_word(uint i) { return redmap_data[i]; }

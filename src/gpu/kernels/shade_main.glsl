@@ -25,13 +25,6 @@ void main() {
 #ifdef REDMAP_GUARDED
   if (!redmap_goes_on()) return;
 #endif
-#if REDMAP_BASIS > 0
-  if (redmap_stage == redmap_bind_stage) {
-    if (redmap_i < uint(REDMAP_BASIS)) redmap_patterns[redmap_i] = redmap_bound(redmap_basis_place(redmap_i));
-    redmap_ended(0u);
-    return;
-  }
-#endif
 #ifdef REDMAP_PASSES
   if (redmap_stage == redmap_pass_stage) {
     redmap_pass_light(redmap_i);

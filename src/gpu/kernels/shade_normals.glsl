@@ -99,7 +99,9 @@ vec3 redmap_over_normals(RedmapGather redmap_g, float redmap_w, inout RedmapQues
     return redmap_q.drawn;
   }
 #endif
-  return redmap_modelled(redmap_q.basis, redmap_q.lobes, redmap_q.about, redmap_s, redmap_q.to_light,
+  vec3 redmap_mean =
+      redmap_s.weight * redmap_about(redmap_mean_of(redmap_s), redmap_q.basis, redmap_q.to_light, redmap_q.to_viewer);
+  return redmap_modelled(redmap_q.basis, redmap_q.lobes, redmap_q.about, redmap_s, redmap_mean, redmap_q.to_light,
                          redmap_q.to_viewer);
 }
 

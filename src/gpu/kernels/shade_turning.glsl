@@ -38,7 +38,7 @@ vec3 redmap_one_spread(uint redmap_b, RedmapNormals redmap_d, float redmap_w, ve
     RedmapLobes redmap_lobes = redmap_lobes_at(redmap_b, redmap_h.theta_degrees);
     RedmapSums redmap_s = redmap_no_sums();
     redmap_add(redmap_b, redmap_lobes, redmap_h, redmap_d, redmap_w, redmap_s);
-    redmap_value = redmap_modelled(redmap_b, redmap_lobes, redmap_h, redmap_s, redmap_l, redmap_v);
+    redmap_value = redmap_modelled(redmap_b, redmap_lobes, redmap_h, redmap_s, redmap_mean, redmap_l, redmap_v);
   }
   return mix(redmap_mean, redmap_value,
              min(1.0, (redmap_variance - redmap_begin) / (redmap_end - redmap_begin)));
@@ -117,7 +117,11 @@ vec3 redmap_filtered(RedmapHit redmap_hit_, RedmapAxes redmap_a, uint redmap_sam
   redmap_gather_turns(redmap_hit_, redmap_a);
   return redmap_spread_out(redmap_hit_, redmap_w);
 #endif
+#ifdef REDMAP_MIXES_ALL
+  if (redmap_draws != 0u) return redmap_looked_up(redmap_hit_, redmap_w);  // asks one anyway
+#else
   if (redmap_draws != 0u) return redmap_drawn(redmap_hit_, redmap_w, redmap_sample);
+#endif
   if (redmap_stage == redmap_spread_stage) return redmap_spread_out(redmap_hit_, redmap_w);
   return redmap_looked_up(redmap_hit_, redmap_w);
 }
