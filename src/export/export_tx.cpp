@@ -41,6 +41,7 @@ class TiffFile {
     require(TIFFCreateEXIFDirectory(file_.get()) == 0);
     set(EXIFTAG_COLORSPACE, kExifColorSrgb);
     require(TIFFWriteCustomDirectory(file_.get(), &offset) == 1);
+    TIFFFreeDirectory(file_.get());  // TIFFCreateDirectory() would leak it
     require(TIFFCreateDirectory(file_.get()) == 0);
     return offset;
   }

